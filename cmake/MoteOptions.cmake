@@ -1,0 +1,36 @@
+# How everything is compiled: one interface target that every room links.
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+find_program(MOTE_CCACHE ccache)
+if(MOTE_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${MOTE_CCACHE}")
+endif()
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+# What a user of the headers must also have: the language and the arithmetic.
+# -ffp-contract=off: the same lines give the same bits on every machine and in every number type (a recorded graph
+# evaluates a*b+c in two roundings, so must the direct call). -fno-math-errno: sqrt and friends compile to instructions.
+add_library(mote_arithmetic INTERFACE)
+add_library(mote::arithmetic ALIAS mote_arithmetic)
+set_target_properties(mote_arithmetic PROPERTIES EXPORT_NAME arithmetic)
+target_compile_features(mote_arithmetic INTERFACE cxx_std_20)
+target_compile_options(mote_arithmetic INTERFACE -ffp-contract=off -fno-math-errno)
+
+# What only our own files are compiled with.
+add_library(mote_strict INTERFACE)
+target_compile_options(mote_strict INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror)
+if(MOTE_NATIVE)
+  target_compile_options(mote_strict INTERFACE -march=native)
+endif()
+if(MOTE_SANITIZE)
+  target_compile_options(mote_strict INTERFACE -fsanitize=${MOTE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(mote_strict INTERFACE -fsanitize=${MOTE_SANITIZE})
+endif()
+if(MOTE_COVERAGE)
+  target_compile_options(mote_strict INTERFACE --coverage)
+  target_link_options(mote_strict INTERFACE --coverage)
+endif()
