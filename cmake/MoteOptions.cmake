@@ -27,7 +27,7 @@ add_library(mote_strict INTERFACE)
 target_compile_options(mote_strict INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror)
 # g++ 12 sees these in memcpy and intrinsics that it has inlined from libstdc++ and Boost, where the sizes are right.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  target_compile_options(mote_strict INTERFACE -Wno-stringop-overread -Wno-stringop-overflow -Wno-maybe-uninitialized -Wno-array-bounds)
+  target_compile_options(mote_strict INTERFACE -Wno-stringop-overread -Wno-stringop-overflow -Wno-maybe-uninitialized -Wno-array-bounds -Wno-restrict)
 endif()
 if(MOTE_NATIVE)
   target_compile_options(mote_strict INTERFACE -march=native)
