@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <ranges>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -35,7 +36,7 @@ constexpr std::string_view kHead = R"(<!doctype html>
 
 constexpr std::string_view kNoPlots =
     "The plots are not shown: this mote was built without them. "
-    "Build it with npm installed and -DMOTE_REPORT_PAGE=ON.";
+    "Build it with npm installed and the option MOTE_REPORT_PAGE on.";
 
 std::string list_items(const std::vector<std::string>& texts) {
   std::string out;
@@ -117,9 +118,15 @@ std::string notes_part(const Page& page) {
   return section("notes", "Notes", fmt::format("<ul class=\"notes\">\n{}</ul>\n", list_items(notes)));
 }
 
+// Options are kept from being broken after their hyphens.
 std::string command_part(const std::string& command) {
   if (command.empty()) return {};
-  return section("command", "Command", fmt::format("<pre><code>{}</code></pre>\n", escaped(command)));
+  std::string words;
+  for (const auto word : std::views::split(command, ' ')) {
+    const std::string_view text(word.begin(), word.end());
+    words += text.starts_with('-') ? fmt::format(" <span>{}</span>", escaped(text)) : ' ' + escaped(text);
+  }
+  return section("command", "Command", fmt::format("<pre><code>{}</code></pre>\n", words.substr(1)));
 }
 
 // The guard comes first: it must be listening when the rest runs.

@@ -1,6 +1,5 @@
 #include "mote/report/page.hpp"
 
-#include <regex>
 #include <stdexcept>
 
 #include "mote/report/text.hpp"
@@ -44,7 +43,7 @@ std::string markup(std::string page) {
 TEST(Page, ShowsFactsTablesNotesAndCommand) {
   const std::string text = html({.title = "Run",
                                  .summary = "A short one.",
-                                 .command = "mote run ungm",
+                                 .command = "mote run  ungm --seed 1",
                                  .facts = {{"particles", "1000"}},
                                  .tables = {{"Errors", {"state", "rmse"}, {{"x", "4.2"}, {"y", ""}}}},
                                  .notes = {"Seeds are fixed."}});
@@ -54,8 +53,8 @@ TEST(Page, ShowsFactsTablesNotesAndCommand) {
   EXPECT_NE(text.find("<dt>particles</dt><dd>1000</dd>"), std::string::npos);
   EXPECT_NE(text.find("<tr><td>x</td><td class=\"number\">4.2</td></tr>"), std::string::npos);
   EXPECT_NE(text.find("<li>Seeds are fixed.</li>"), std::string::npos);
-  EXPECT_NE(text.find("<pre><code>mote run ungm</code></pre>"), std::string::npos);
-  EXPECT_TRUE(std::regex_search(text, std::regex("<footer>mote [0-9]+\\.[0-9]+\\.[0-9]+</footer>")));
+  EXPECT_NE(text.find("<pre><code>mote run  ungm <span>--seed</span> 1</code></pre>"), std::string::npos);
+  EXPECT_NE(text.find("<footer>mote " MOTE_VERSION "</footer>"), std::string::npos);
 }
 
 TEST(Page, EscapesEveryText) {
@@ -70,8 +69,9 @@ TEST(Page, EscapesEveryText) {
 
 TEST(Page, LoadsNothing) {
   const std::string text = markup(html(full_page("name")));
-  EXPECT_FALSE(std::regex_search(text, std::regex("(src|href|srcset|action|data)\\s*=", std::regex::icase)));
-  EXPECT_EQ(text.find("<link"), std::string::npos);
+  for (const std::string part :
+       {"src=", "href=", "srcset=", "action=", " data=", "<link", "<iframe", "<object", "http:", "https:", "url("})
+    EXPECT_EQ(text.find(part), std::string::npos) << part;
   EXPECT_EQ(style_text().find("url("), std::string_view::npos);
   EXPECT_EQ(style_text().find("@import"), std::string_view::npos);
   EXPECT_NE(text.find("default-src 'none'"), std::string::npos);
