@@ -9,7 +9,10 @@ function guarded(figure, draw) {
   try {
     return [draw()];
   } catch (error) {
-    const message = Object.assign(document.createElement("p"), { className: "error", textContent: `This chart could not be drawn: ${error.message}` });
+    const message = Object.assign(document.createElement("p"), {
+      className: "error",
+      textContent: `This chart could not be drawn: ${error.message}`,
+    });
     message.setAttribute("role", "alert");
     figure.append(message);
     reportError(error);
@@ -20,13 +23,16 @@ function guarded(figure, draw) {
 const charts = JSON.parse(document.getElementById("charts-data").textContent);
 const figures = [...document.querySelectorAll("figure[data-chart]")];
 
-const follows = (a, b) => a !== b && !b.chart.plane && a.chart.x_label === b.chart.x_label && a.chart.log_x === b.chart.log_x;
-const zoomed = (plot) => plots.filter((other) => follows(plot, other)).forEach((other) => other.join(plot.window?.x ?? null));
+const follows = (a, b) =>
+  a !== b && !b.chart.plane && a.chart.x_label === b.chart.x_label && a.chart.log_x === b.chart.log_x;
+const zoomed = (plot) =>
+  plots.filter((other) => follows(plot, other)).forEach((other) => other.join(plot.window?.x ?? null));
 const plots = figures.flatMap((figure, i) => guarded(figure, () => new Plot(figure, prepare(charts[i]), zoomed)));
 onThemeChange(() => plots.forEach((plot) => plot.repaint()));
 
 if (plots.length) {
-  const hint = "Ctrl + wheel or pinch zooms, dragging moves, a double click resets; a name in a legend hides and shows its series.";
+  const hint =
+    "Ctrl + wheel or pinch zooms, dragging moves, a double click resets; a name in a legend hides and shows its series.";
   figures[0].before(Object.assign(document.createElement("p"), { className: "hint", textContent: hint }));
 }
 
@@ -36,8 +42,11 @@ function select(node) {
 
 for (const pre of document.querySelectorAll("pre")) {
   const copy = button("Copy", "Copy the command", async () => {
-    const copied = await navigator.clipboard.writeText(pre.textContent).then(() => true, () => false);
-    if (!copied) select(pre.firstElementChild);  // without permission the reader presses Ctrl + C
+    const copied = await navigator.clipboard.writeText(pre.textContent).then(
+      () => true,
+      () => false,
+    );
+    if (!copied) select(pre.firstElementChild); // without permission the reader presses Ctrl + C
     copy.textContent = copied ? "Copied" : "Selected";
     setTimeout(() => (copy.textContent = "Copy"), 2000);
   });

@@ -21,7 +21,11 @@ export function swatch(item, colours) {
   const node = document.createElement("span");
   node.className = "swatch";
   node.innerHTML = `<svg viewBox="0 0 24 14" width="24" height="14" aria-hidden="true">${signs[item.truth ? "truth" : item.mark]}</svg>`;
-  node.style.color = colours ? colourOf(item, colours) : item.truth ? "var(--ink)" : `var(--series-${(item.colour % 6) + 1})`;
+  node.style.color = colours
+    ? colourOf(item, colours)
+    : item.truth
+      ? "var(--ink)"
+      : `var(--series-${(item.colour % 6) + 1})`;
   return node;
 }
 

@@ -30,7 +30,10 @@ export class Plot {
     const { chart, figure } = this;
     const tools = document.createElement("div");
     tools.className = "tools";
-    tools.append(button("−", `Zoom out: ${chart.title}`, () => this.scale(2)), button("+", `Zoom in: ${chart.title}`, () => this.scale(0.5)));
+    tools.append(
+      button("−", `Zoom out: ${chart.title}`, () => this.scale(2)),
+      button("+", `Zoom in: ${chart.title}`, () => this.scale(0.5)),
+    );
     this.reset = button("Reset", `Reset the zoom: ${chart.title}`, () => this.zoomTo(null));
     tools.append(this.reset);
     this.box = document.createElement("div");
@@ -39,7 +42,11 @@ export class Plot {
     figure.classList.toggle("empty", this.empty);
     this.box.setAttribute("role", "img");
     this.box.setAttribute("aria-label", this.description());
-    figure.append(tools, legend(chart.items, (item, shown) => this.toggle(item, shown)), this.box);
+    figure.append(
+      tools,
+      legend(chart.items, (item, shown) => this.toggle(item, shown)),
+      this.box,
+    );
     const remark = this.remark();
     if (remark) figure.append(Object.assign(document.createElement("p"), { className: "remark", textContent: remark }));
   }
@@ -51,13 +58,17 @@ export class Plot {
   remark() {
     const { hidden } = this.chart;
     if (this.empty) return "No data.";
-    return hidden ? `${hidden} ${hidden === 1 ? "value is" : "values are"} not positive and cannot be shown on a logarithmic axis.` : "";
+    return hidden
+      ? `${hidden} ${hidden === 1 ? "value is" : "values are"} not positive and cannot be shown on a logarithmic axis.`
+      : "";
   }
 
   description() {
     const { title, x_label, y_label, items, xRange, yRange, log_x, log_y } = this.chart;
     const from = (range, log) => `${formatted(valueAt(range[0], log))} to ${formatted(valueAt(range[1], log))}`;
-    const ranges = this.empty ? "no data" : `${x_label || "x"} from ${from(xRange, log_x)}, ${y_label || "y"} from ${from(yRange, log_y)}`;
+    const ranges = this.empty
+      ? "no data"
+      : `${x_label || "x"} from ${from(xRange, log_x)}, ${y_label || "y"} from ${from(yRange, log_y)}`;
     return `${title}: plot of ${items.map((item) => item.name).join(", ") || "nothing"}; ${ranges}`;
   }
 
@@ -102,7 +113,9 @@ export class Plot {
     const shown = items.map((item) => ({ item, points: this.points(item, window, area) }));
     if (!this.chart.plane) full.y = window.y;
     const size = [this.canvas.getWidth(), this.canvas.getHeight()];
-    this.canvas.setOption(option(this.chart, shown, full, window, size, this.colours, this.tooltip(items)), { replaceMerge: ["series"] });
+    this.canvas.setOption(option(this.chart, shown, full, window, size, this.colours, this.tooltip(items)), {
+      replaceMerge: ["series"],
+    });
     this.canvas.getZr().flush();
     this.reset.disabled = this.window === null;
     if (this.empty) this.figure.dataset.empty = "true";

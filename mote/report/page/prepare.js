@@ -34,7 +34,8 @@ function positions(item, names, chart) {
 /** How many numbers a logarithmic axis cannot show. */
 function hiddenByLog(items, names, log) {
   if (!log) return 0;
-  return items.flatMap((item) => names.filter((n) => item[n]).map((n) => item[n].filter((v) => v !== null && v <= 0).length))
+  return items
+    .flatMap((item) => names.filter((n) => item[n]).map((n) => item[n].filter((v) => v !== null && v <= 0).length))
     .reduce((sum, n) => sum + n, 0);
 }
 
@@ -56,19 +57,38 @@ function numberColours(series, bands) {
  */
 export function prepare(chart) {
   const line = (item) => item.mark !== "points";
-  const series = chart.series.map((item) => ({ name: item.name, mark: item.mark, truth: isTruth(item), ...positions(item, ["x", "y"], chart) }));
-  const bands = chart.bands.map((item) => ({ name: item.name, mark: "band", ...positions(item, ["x", "low", "high"], chart) }));
-  const plane = chart.equal_axes || series.some((item) => line(item) && !isSorted(item.x.filter((v) => !Number.isNaN(v))));
+  const series = chart.series.map((item) => ({
+    name: item.name,
+    mark: item.mark,
+    truth: isTruth(item),
+    ...positions(item, ["x", "y"], chart),
+  }));
+  const bands = chart.bands.map((item) => ({
+    name: item.name,
+    mark: "band",
+    ...positions(item, ["x", "low", "high"], chart),
+  }));
+  const plane =
+    chart.equal_axes || series.some((item) => line(item) && !isSorted(item.x.filter((v) => !Number.isNaN(v))));
   for (const item of [...bands, ...series])
-    if (item.mark === "band" || !plane) Object.assign(item, sortedRows(item.mark === "band" ? { x: item.x, low: item.low, high: item.high } : { x: item.x, y: item.y }));
+    if (item.mark === "band" || !plane)
+      Object.assign(
+        item,
+        sortedRows(item.mark === "band" ? { x: item.x, low: item.low, high: item.high } : { x: item.x, y: item.y }),
+      );
   numberColours(series, bands);
   const items = [...bands, ...series];
   return {
-    ...chart, series, bands, items, plane,
+    ...chart,
+    series,
+    bands,
+    items,
+    plane,
     xRange: extent(items.map((item) => item.x)),
     yRange: extent(items.flatMap((item) => (item.y ? [item.y] : [item.low, item.high]))),
     whole: !chart.log_x && items.every((item) => item.x.every((v) => Number.isInteger(v) || Number.isNaN(v))),
-    hidden: hiddenByLog([...chart.series, ...chart.bands], ["x"], chart.log_x) +
+    hidden:
+      hiddenByLog([...chart.series, ...chart.bands], ["x"], chart.log_x) +
       hiddenByLog([...chart.series, ...chart.bands], ["y", "low", "high"], chart.log_y),
   };
 }

@@ -28,7 +28,11 @@ export function ticks([low, high], count, { log = false, whole = false } = {}) {
   const decades = Array.from({ length: Math.floor(high) - Math.floor(low) + 1 }, (_, i) => Math.floor(low) + i);
   const marks = decades.flatMap((d) => [1, 2, 5].map((m) => d + Math.log10(m))).filter((v) => v >= low && v <= high);
   if (marks.length > 1.6 * count) return linearTicks([low, high], count, true);
-  return marks.length >= 2 ? marks : linearTicks([10 ** low, 10 ** high], count, false).filter((v) => v > 0).map(Math.log10);
+  return marks.length >= 2
+    ? marks
+    : linearTicks([10 ** low, 10 ** high], count, false)
+        .filter((v) => v > 0)
+        .map(Math.log10);
 }
 
 const superscript = (n) => String(n).replace(/[-\d]/g, (c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]);

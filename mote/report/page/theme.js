@@ -19,4 +19,5 @@ export function onThemeChange(repaint) {
   };
   addEventListener("beforeprint", paper(true));
   addEventListener("afterprint", paper(false));
+  matchMedia("print").addEventListener("change", repaint); // the scheme may return after "afterprint"
 }

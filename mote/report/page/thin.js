@@ -36,7 +36,9 @@ export function thinLine({ x, y }, window, pixels) {
   const [from, to] = visible(x, window);
   const kept = [];
   eachColumn(x, [from, to], window, pixels, (a, b) => {
-    let least = a, greatest = a, gap = -1;
+    let least = a,
+      greatest = a,
+      gap = -1;
     for (let i = a; i < b; ++i) {
       if (Number.isNaN(y[i])) gap = i;
       if (!(y[i] >= y[least])) least = Number.isNaN(y[i]) ? least : i;
@@ -57,7 +59,8 @@ export function thinBand({ x, low, high }, window, pixels) {
       for (let i = a; i < b; ++i) kept.push([x[i], low[i], high[i]]);
       return;
     }
-    let least = Infinity, greatest = -Infinity;
+    let least = Infinity,
+      greatest = -Infinity;
     for (let i = a; i < b; ++i) {
       if (low[i] < least) least = low[i];
       if (high[i] > greatest) greatest = high[i];
