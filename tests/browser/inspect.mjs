@@ -4,15 +4,22 @@ import { createRequire } from "node:module";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 
-const flags = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-  "--disable-component-update", "--disable-sync"];
+const flags = [
+  "--no-sandbox",
+  "--disable-gpu",
+  "--disable-quic",
+  "--no-first-run",
+  "--disable-background-networking",
+  "--disable-component-update",
+  "--disable-sync",
+];
 
 /** The browser to use (MOTE_CHROMIUM, else the usual places); undefined if there is none. */
 export function chromium() {
-  if (process.env.MOTE_CHROMIUM) return process.env.MOTE_CHROMIUM;
   const names = ["chromium", "chromium-browser", "google-chrome"];
   const folders = ["/usr/bin", ...(process.env.PATH ?? "").split(":")];
-  return folders.flatMap((folder) => names.map((name) => join(folder, name))).find((file) => existsSync(file));
+  const usual = folders.flatMap((folder) => names.map((name) => join(folder, name)));
+  return (process.env.MOTE_CHROMIUM ? [process.env.MOTE_CHROMIUM] : usual).find((file) => existsSync(file));
 }
 
 /** playwright-core, from where the build installed it (MOTE_BROWSER_MODULES, else build/tests/browser). */
@@ -49,14 +56,20 @@ function listen(page, url, failures) {
  */
 export function look() {
   const ground = getComputedStyle(document.documentElement).backgroundColor;
-  const rgb = (text) => text.match(/[\d.]+/g).slice(0, 3).map(Number);
+  const rgb = (text) =>
+    text
+      .match(/[\d.]+/g)
+      .slice(0, 3)
+      .map(Number);
   const shares = { band: [0.22], points: [0.6, 0.84, 0.85, 0.94, 0.98, 1], line: [1], steps: [1] };
   const colours = (entry) => {
     const full = rgb(getComputedStyle(entry.querySelector(".swatch")).color);
-    return (shares[entry.dataset.mark] ?? [1]).map((share) => full.map((c, i) => share * c + (1 - share) * rgb(ground)[i]));
+    return (shares[entry.dataset.mark] ?? [1]).map((share) =>
+      full.map((c, i) => share * c + (1 - share) * rgb(ground)[i]),
+    );
   };
-  /** The layers of a chart on the ground, as the reader sees them. */
-  const pixels = (figure) => {
+  /** How often each colour occurs in the layers of a chart on the ground, as the reader sees them: [[r, g, b], count]. */
+  const histogram = (figure) => {
     const layers = [...figure.querySelectorAll("canvas")];
     if (!layers.length) return [];
     const flat = Object.assign(document.createElement("canvas"), { width: layers[0].width, height: layers[0].height });
@@ -64,26 +77,36 @@ export function look() {
     pen.fillStyle = ground;
     pen.fillRect(0, 0, flat.width, flat.height);
     layers.forEach((layer) => pen.drawImage(layer, 0, 0));
-    return pen.getImageData(0, 0, flat.width, flat.height).data;
+    const counts = new Map();
+    for (const pixel of new Uint32Array(pen.getImageData(0, 0, flat.width, flat.height).data.buffer))
+      counts.set(pixel, (counts.get(pixel) ?? 0) + 1);
+    return [...counts].map(([pixel, n]) => [[pixel & 255, (pixel >> 8) & 255, (pixel >> 16) & 255], n]);
   };
-  const count = (data, wanted) => {
-    let found = 0;
-    for (let k = 0; k < data.length; k += 4)
-      if (wanted.some(([r, g, b]) => Math.abs(data[k] - r) + Math.abs(data[k + 1] - g) + Math.abs(data[k + 2] - b) <= 15)) ++found;
-    return found;
-  };
+  const near = (a, b) => a.reduce((sum, c, i) => sum + Math.abs(c - b[i]), 0) <= 15;
+  const count = (seen, wanted) =>
+    seen.filter(([rgb]) => wanted.some((colour) => near(rgb, colour))).reduce((sum, [, n]) => sum + n, 0);
   return [...document.querySelectorAll("[data-chart]")].map((figure) => {
-    const data = pixels(figure);
-    const ink = [...figure.querySelectorAll(".legend button")].map((entry) => [entry.textContent, count(data, colours(entry))]);
-    return { title: figure.dataset.chart, rendered: figure.dataset.rendered === "true", empty: figure.dataset.empty === "true", ink };
+    const seen = histogram(figure);
+    const ink = [...figure.querySelectorAll(".legend button")].map((entry) => [
+      entry.textContent,
+      count(seen, colours(entry)),
+    ]);
+    return {
+      title: figure.dataset.chart,
+      rendered: figure.dataset.rendered === "true",
+      empty: figure.dataset.empty === "true",
+      ink,
+    };
   });
 }
 
 function judge(charts, expected, failures) {
-  if (expected !== undefined && charts.length !== expected) failures.push(`expected ${expected} charts, found ${charts.length}`);
+  if (expected !== undefined && charts.length !== expected)
+    failures.push(`expected ${expected} charts, found ${charts.length}`);
   for (const { title, rendered, empty, ink } of charts) {
     if (!rendered) failures.push(`chart "${title}": not rendered`);
-    else if (!empty && !ink.some(([, count]) => count >= 8)) failures.push(`chart "${title}": blank, no pixel has the colour of a series`);
+    else if (!empty && !ink.some(([, count]) => count >= 8))
+      failures.push(`chart "${title}": blank, no pixel has the colour of a series`);
   }
 }
 

@@ -5,7 +5,8 @@
 import { parseArgs } from "node:util";
 import { chromium, inspect, withBrowser } from "./inspect.mjs";
 
-const usage = "open_page: expected one FILE.html and the options --expect-charts K, --screenshot OUT.png, --width W, --dark";
+const usage =
+  "open_page: expected one FILE.html and the options --expect-charts K, --screenshot OUT.png, --width W, --dark";
 
 function command() {
   try {
@@ -16,7 +17,13 @@ function command() {
     });
     if (positionals.length !== 1) throw new Error(`got ${positionals.length} files`);
     const number = (name) => (values[name] === undefined ? undefined : Number(values[name]));
-    return { file: positionals[0], expectCharts: number("expect-charts"), width: number("width"), screenshot: values.screenshot, dark: values.dark };
+    return {
+      file: positionals[0],
+      expectCharts: number("expect-charts"),
+      width: number("width"),
+      screenshot: values.screenshot,
+      dark: values.dark,
+    };
   } catch (error) {
     console.error(`${usage}; ${error.message}.`);
     process.exit(2);
@@ -29,7 +36,10 @@ if (!chromium()) {
   process.exit(77);
 }
 const { failures, charts } = await withBrowser((browser) => inspect(browser, file, options));
-for (const { title, ink } of charts) console.log(`chart "${title}": ${ink.map(([name, n]) => `${name} ${n} px`).join(", ")}`);
+for (const { title, ink } of charts)
+  console.log(`chart "${title}": ${ink.map(([name, n]) => `${name} ${n} px`).join(", ")}`);
 for (const failure of failures) console.error(`FAILED ${failure}`);
-console.log(failures.length ? `${file}: ${failures.length} failures` : `${file}: ${charts.length} charts drawn, nothing wrong`);
+console.log(
+  failures.length ? `${file}: ${failures.length} failures` : `${file}: ${charts.length} charts drawn, nothing wrong`,
+);
 process.exit(failures.length ? 1 : 0);
