@@ -1,5 +1,5 @@
 #pragma once
-/// Randomness by address: every draw is a function of (seed, step, purpose, particle block, draw number), never of call order.
+/// Randomness by address: every draw is a function of (seed, step, purpose, stream, particle block, draw number), never of call order.
 ///
 /// Particles are drawn in blocks of 1024. A block has eight generators (xoshiro256++), keyed by a counter-based generator
 /// (Philox4x32-10) from its address. Particle i of a block uses generator i mod 8; the draws of a generator go to its
@@ -29,6 +29,7 @@ struct Address {
   std::uint32_t step;
   Purpose purpose;
   std::uint32_t block;
+  std::uint32_t stream = 0;  ///< below 2^24: which of several users of one purpose (groups of a distributed filter)
 };
 
 /// One xoshiro256++ generator (Blackman & Vigna 2021): period 2^256 - 1, 64 bits a word.
@@ -120,10 +121,11 @@ class BlockDraws {
 struct Draws {
   std::uint64_t seed = 1;
   std::uint32_t step = 0;
+  std::uint32_t stream = 0;
 
   template <class R = double>
   BlockDraws<R> block(Purpose purpose, std::size_t index = 0) const {
-    return BlockDraws<R>({seed, step, purpose, static_cast<std::uint32_t>(index)});
+    return BlockDraws<R>({seed, step, purpose, static_cast<std::uint32_t>(index), stream});
   }
 
   /// Calls visit(i, draw) for each i in [first, last), block by block; `first` is a multiple of the block size.

@@ -16,7 +16,7 @@ namespace mote {
 /// misplaces whole percents of a block's offspring). See docs/decisions/0003-weight-scans.md.
 ///
 /// shape   weights: (N,), N >= 1, >= 0, finite, not all zero; they must outlive the scan
-/// cost    O(N) once; memory 16 N / 1024 bytes
+/// cost    O(N) once; memory N / 2 bytes
 class WeightScan {
  public:
   explicit WeightScan(std::span<const double> weights);
@@ -27,7 +27,7 @@ class WeightScan {
   /// The smallest i with through(i) > target and w_i > 0: inversion of the cumulative sum.
   ///
   /// shape   0 <= target < total(); a target at or past the total (by rounding) gives the last positive weight
-  /// cost    O(log(N / 1024) + 1024)
+  /// cost    O(log N)
   std::size_t find(double target) const;
 
   /// A reader of the cumulative sum for targets that never decrease; a whole pass costs O(N + targets).
@@ -46,7 +46,10 @@ class WeightScan {
 
  private:
   std::span<const double> weights_;
+  double before_cell(std::size_t cell) const;
+
   std::vector<double> base_;  // base_[b]: sum of the weights before block b; the last entry is the total
+  std::vector<double> runs_;  // runs_[c]: sum of the weights of its block before cell c of sixteen
 };
 
 }  // namespace mote

@@ -1,0 +1,70 @@
+#pragma once
+/// Commands are data: one list of options gives the command line, its help and its checks.
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mote/base/refusal.hpp"
+
+namespace mote {
+
+/// One option of a command.
+struct OptionSpec {
+  std::string flags;     ///< "-n,--particles"
+  std::string value;     ///< what follows it: "N", "FILE"; empty for a flag
+  std::string fallback;  ///< its default as text; empty = none
+  std::string meaning;   ///< with unit and range
+  std::string group;     ///< heading in the help
+  bool many = false;     ///< may be given several times
+};
+
+/// A word before the options.
+struct PositionalSpec {
+  std::string name, meaning;
+  bool required = true;
+};
+
+/// The options given on one command line.
+class Arguments {
+ public:
+  Arguments(std::string where, std::map<std::string, std::vector<std::string>> given, std::map<std::string, std::string> fallbacks) : where_(std::move(where)), given_(std::move(given)), fallbacks_(std::move(fallbacks)) {}
+
+  const std::string& where() const { return where_; }
+  bool given(const std::string& name) const { return given_.contains(name); }
+  /// The text of an option, or its default.
+  std::string text(const std::string& name) const;
+  std::vector<std::string> list(const std::string& name) const;
+  /// An integer in [least, most].
+  long long integer(const std::string& name, long long least, long long most) const;
+  double number(const std::string& name, double least, double most) const;
+  /// The place of the option's text among the choices.
+  std::size_t choice(const std::string& name, const std::vector<std::string>& choices) const;
+  /// The text of an option that must be given.
+  std::string required(const std::string& name, const std::string& expected, const std::string& next) const;
+
+ private:
+  std::string where_;
+  std::map<std::string, std::vector<std::string>> given_;
+  std::map<std::string, std::string> fallbacks_;
+};
+
+/// A command of the program.
+struct Command {
+  std::string name, summary;
+  std::vector<PositionalSpec> positionals;
+  std::vector<OptionSpec> options;
+  ExitCode (*run)(const Arguments& arguments);
+  std::string footer;
+};
+
+Command models_command();
+Command simulate_command();
+Command run_command();
+Command reproduce_command();
+
+/// Parses and runs: what main() returns.
+int run_program(int count, char** words);
+
+}  // namespace mote

@@ -1,0 +1,117 @@
+#include "mote/app/files/matrices.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "mote/app/files/text.hpp"
+#include "mote/base/refusal.hpp"
+
+namespace mote {
+namespace {
+
+using Json = nlohmann::json;
+
+Json from_toml(const toml::node& node) {
+  if (const auto* table = node.as_table()) {
+    Json object = Json::object();
+    for (const auto& [key, value] : *table) object[std::string(key.str())] = from_toml(value);
+    return object;
+  }
+  if (const auto* array = node.as_array()) {
+    Json list = Json::array();
+    for (const auto& value : *array) list.push_back(from_toml(value));
+    return list;
+  }
+  if (const auto number = node.value<double>()) return *number;
+  if (const auto text = node.value<std::string>()) return *text;
+  return nullptr;
+}
+
+Json parsed(const std::string& path) {
+  const std::string text = read_text(path);
+  if (path.ends_with(".json")) {
+    try {
+      return Json::parse(text);
+    } catch (const Json::parse_error& error) {
+      throw Refusal(ExitCode::kBadData, {path, "", "JSON", error.what(), ""});
+    }
+  }
+  try {
+    const toml::table table = toml::parse(text, path);
+    return from_toml(table);
+  } catch (const toml::parse_error& error) {
+    throw Refusal(ExitCode::kBadData, {fmt::format("{}:{}", path, error.source().begin.line), "", "TOML", std::string(error.description()), ""});
+  }
+}
+
+/// Reads keys of one file, refusing by the file's name.
+class Reader {
+ public:
+  Reader(std::string path, Json root) : path_(std::move(path)), root_(std::move(root)) {}
+
+  const Json& at(const std::string& key, const std::string& other = "") const {
+    if (root_.contains(key)) return root_[key];
+    if (!other.empty() && root_.contains(other)) return root_[other];
+    throw Refusal(ExitCode::kBadData, {path_, "\"" + key + "\"", "a key of that name", "none", "A linear-gaussian file has F, Q, H, R, mean and covariance."});
+  }
+  Eigen::MatrixXd matrix(const Json& value, const std::string& key) const {
+    if (value.is_number()) return Eigen::MatrixXd::Constant(1, 1, value.get<double>());
+    if (!value.is_array() || value.empty() || !value[0].is_array() || value[0].empty()) refuse(key, "a list of rows of numbers");
+    Eigen::MatrixXd out(static_cast<Eigen::Index>(value.size()), static_cast<Eigen::Index>(value[0].size()));
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      if (!value[i].is_array() || value[i].size() != value[0].size()) refuse(key, "rows of equal length");
+      for (std::size_t j = 0; j < value[i].size(); ++j) {
+        if (!value[i][j].is_number()) refuse(key, "numbers");
+        out(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = value[i][j].get<double>();
+      }
+    }
+    return out;
+  }
+  Eigen::VectorXd vector(const Json& value, const std::string& key) const {
+    if (value.is_number()) return Eigen::VectorXd::Constant(1, value.get<double>());
+    if (!value.is_array() || value.empty()) refuse(key, "a list of numbers");
+    Eigen::VectorXd out(static_cast<Eigen::Index>(value.size()));
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      if (!value[i].is_number()) refuse(key, "numbers");
+      out(static_cast<Eigen::Index>(i)) = value[i].get<double>();
+    }
+    return out;
+  }
+  std::vector<std::string> names(const std::string& key) const {
+    std::vector<std::string> out;
+    if (!root_.contains(key)) return out;
+    for (const Json& name : root_[key]) {
+      if (!name.is_string()) refuse(key, "a list of names");
+      out.push_back(name.get<std::string>());
+    }
+    return out;
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& key, const std::string& expected) const { throw Refusal(ExitCode::kBadData, {path_, "\"" + key + "\"", expected, "something else", "A matrix is written [[1, 0], [0, 1]]."}); }
+
+  std::string path_;
+  Json root_;
+};
+
+}  // namespace
+
+LinearGaussianParameters read_linear_gaussian(const std::string& path) {
+  const Reader reader(path, parsed(path));
+  LinearGaussianParameters p;
+  p.F = reader.matrix(reader.at("F"), "F");
+  p.Q = reader.matrix(reader.at("Q"), "Q");
+  p.H = reader.matrix(reader.at("H"), "H");
+  p.R = reader.matrix(reader.at("R"), "R");
+  p.mean = reader.vector(reader.at("mean", "m0"), "mean");
+  p.covariance = reader.matrix(reader.at("covariance", "P0"), "covariance");
+  p.state_names = reader.names("states");
+  p.observation_names = reader.names("observations");
+  return p;
+}
+
+}  // namespace mote

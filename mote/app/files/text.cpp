@@ -1,0 +1,52 @@
+#include "mote/app/files/text.hpp"
+
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+
+#include "mote/base/refusal.hpp"
+
+namespace mote {
+
+std::string read_text(const std::string& path) {
+  const auto refuse = [&](const std::string& got) { return Refusal(ExitCode::kBadData, {path, "", "a file that can be read", got, "Check the path."}); };
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) throw refuse("a folder");
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+  if (!file) throw refuse(errno == ENOENT ? "no such file" : std::strerror(errno));
+  std::string text;
+  char buffer[1U << 16U];
+  while (const std::size_t n = std::fread(buffer, 1, sizeof buffer, file.get())) text.append(buffer, n);
+  if (std::ferror(file.get()) != 0) throw refuse(std::strerror(errno));
+  return text;
+}
+
+std::optional<double> number_in(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  // 1e-400 is zero, 1e400 infinity: strtod tells which
+  if (error == std::errc::result_out_of_range && end == text.data() + text.size()) return std::strtod(std::string(text).c_str(), nullptr);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::optional<long long> integer_in(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  long long value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+}  // namespace mote

@@ -1,0 +1,24 @@
+#pragma once
+/// Whole text files, and numbers in text.
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace mote {
+
+/// The bytes of a file.
+///
+/// error   Refusal (kBadData) when it is missing, a folder or unreadable
+std::string read_text(const std::string& path);
+
+/// The number that a text is, whole; "nan" gives NaN. Nothing when it is no number.
+std::optional<double> number_in(std::string_view text);
+
+/// The integer that a text is, whole.
+std::optional<long long> integer_in(std::string_view text);
+
+/// The text without blanks at its ends.
+std::string_view trimmed(std::string_view text);
+
+}  // namespace mote

@@ -1,0 +1,45 @@
+#pragma once
+/// The independent Metropolis chain over weighted proposals: selection without a sum of weights.
+
+#include <cstddef>
+#include <span>
+
+#include "mote/filter/options.hpp"
+#include "mote/filter/particles.hpp"
+
+namespace mote {
+
+/// The proposals of P chains in one array: Q that may be kept, chain by chain, then P N_b for burning in, chain by chain.
+/// A chain visits its burn-in proposals first, then its own part of the Q.
+struct ChainLayout {
+  std::size_t kept;     ///< N, states kept over all chains
+  std::size_t draws;    ///< Q >= N
+  std::size_t chains;   ///< P <= N
+  std::size_t burn_in;  ///< N_b per chain
+
+  std::size_t proposals() const { return draws + chains * burn_in; }
+};
+
+/// Counts of a run of chains.
+struct ChainReport {
+  std::size_t offered = 0, accepted = 0;
+};
+
+/// Runs the chains and writes which proposals make up the unweighted set: picks[j] for j < N.
+///
+///   accept proposal x^ after x with probability min(w(x^) / w(x), 1):   log u < log w(x^) - log w(x)
+///
+/// shape   log_weights, log_uniforms: (Q + P N_b,), log_uniforms[j] decides on proposal j; not all weights zero
+///         starts: (P,) proposal that each chain starts from, or empty: the first that it visits
+/// cost    O(Q + P N_b), one comparison a proposal
+/// source  IMH-HW (11), (16), (17)
+ChainReport run_chains(const ChainLayout& layout, std::span<const double> log_weights, std::span<const double> log_uniforms, std::span<const Index> starts, std::span<Index> picks);
+
+/// N_b after which an independent Metropolis chain is within `distance` of its law in total variation, at most `most`.
+///
+///   n = log(distance) / log(1 - mean / largest)
+///
+/// source  Mengersen & Tweedie 1996, theorem 2.1: the chain converges like (1 - mean/largest)^n
+std::size_t burn_in_for(double mean_weight, double largest_weight, double distance, std::size_t most);
+
+}  // namespace mote

@@ -1,0 +1,103 @@
+#pragma once
+/// Sequential importance sampling with resampling (SISR), and the distributed filter that differs from it in selection alone.
+
+#include <memory>
+
+#include "mote/filter/select.hpp"
+#include "mote/filter/weigh.hpp"
+
+namespace mote {
+
+/// A filter of particles with importance weights.
+///
+///   x^i ~ g(. | x^i_{t-1}, y);   w^i = w^i_{t-1} p(y | x^i) p(x^i | x^i_{t-1}) / g(x^i | x^i_{t-1}, y);   evidence = sum w^i
+///   estimates from (x, w) before selection
+///
+/// shape   N particles; R is the number type of states and likelihoods, weights are double
+/// error   none; a collapsed step is reported, see OnCollapse
+/// cost    O(N) a step; memory about (2 D + 3) 8 N bytes
+/// source  IMH-HW (4)-(6); FPGA (5)-(7)
+template <Model M, class R = double, class G = Prior>
+class ImportanceFilter final : public Filter {
+ public:
+  ImportanceFilter(M model, std::size_t particles, std::uint64_t seed, std::unique_ptr<Selector<R>> selector, OnCollapse on_collapse)
+      : model_(std::move(model)),
+        proposal_(make_proposal<G>(model_)),
+        seed_(seed),
+        selector_(std::move(selector)),
+        on_collapse_(on_collapse),
+        cloud_(model_.states().size(), particles) {
+    draw_prior(model_, cloud_.x, draws(0));
+  }
+
+  StepReport predict(Step t) override {
+    move(model_, t, cloud_.x, draws(t));
+    return judged(normalise(cloud_.log_weights, cloud_.weights), false);
+  }
+
+  StepReport update(Step t, Rows<double> rows) override {
+    const auto y = typed(rows);
+    propose<M, R>(model_, proposal_, t, y, cloud_.x, cloud_.log_weights, draws(t));
+    weigh<M, R>(model_, t, y, cloud_.x, cloud_.log_weights);
+    const Judgement judgement = normalise(cloud_.log_weights, cloud_.weights);
+    if (!judgement.collapsed) return judged(judgement, true);
+    return recovered(t, y);
+  }
+
+  void select(Step t, StepReport& report) override { report.selected = selector_->select(cloud_, report.ess, draws(t)); }
+
+  WeightedSet weighted() const override { return {&cloud_.x, cloud_.weights, total_}; }
+
+ private:
+  Draws draws(Step t) const { return {seed_, static_cast<std::uint32_t>(t)}; }
+
+  static std::vector<Row<R>> typed(Rows<double> rows) {
+    std::vector<Row<R>> all;
+    for (const auto& row : rows) all.push_back(row.template as<R>());
+    return all;
+  }
+
+  StepReport judged(const Judgement& judgement, bool observed) {
+    total_ = judgement.total;
+    StepReport report;
+    report.log_evidence = observed ? judgement.log_sum : 0;
+    report.ess = judgement.ess;
+    return report;
+  }
+
+  StepReport recovered(Step t, const std::vector<Row<R>>& y) {
+    cloud_.spread();
+    if (on_collapse_ == OnCollapse::kReset) {
+      draw_prior(model_, cloud_.x, draws(t), Purpose::kReset);
+      weigh<M, R>(model_, t, y, cloud_.x, cloud_.log_weights);
+      if (normalise(cloud_.log_weights, cloud_.weights).collapsed) cloud_.spread();
+    }
+    StepReport report = judged(normalise(cloud_.log_weights, cloud_.weights), false);
+    report.log_evidence = -kInfinity;
+    report.collapsed = true;
+    return report;
+  }
+
+  M model_;
+  G proposal_;
+  std::uint64_t seed_;
+  std::unique_ptr<Selector<R>> selector_;
+  OnCollapse on_collapse_;
+  Cloud<R> cloud_;
+  double total_ = 0;
+};
+
+/// SISR: importance filter that resamples the whole set when its effective sample size falls to the threshold.
+template <class R = double, class G = Prior, Model M>
+std::unique_ptr<Filter> make_sisr(M model, std::size_t particles, std::uint64_t seed, const SelectionOptions& selection = {}, OnCollapse on_collapse = OnCollapse::kStop) {
+  return std::make_unique<ImportanceFilter<M, R, G>>(std::move(model), particles, seed, std::make_unique<WholeSelector<R>>(selection), on_collapse);
+}
+
+/// The distributed filter: K groups on a ring, selection inside groups or over all (then it is SISR).
+template <class R = double, class G = Prior, Model M>
+std::unique_ptr<Filter> make_distributed(M model, std::size_t particles, std::uint64_t seed, const GroupOptions& groups, const SelectionOptions& selection = {}, OnCollapse on_collapse = OnCollapse::kStop) {
+  if (groups.global) return make_sisr<R, G>(std::move(model), particles, seed, selection, on_collapse);
+  return std::make_unique<ImportanceFilter<M, R, G>>(std::move(model), particles, seed, std::make_unique<GroupSelector<R>>(selection, groups), on_collapse);
+}
+
+}  // namespace mote

@@ -1,0 +1,51 @@
+#pragma once
+/// Weigh: likelihoods onto log weights, and what the weights say.
+
+#include <span>
+
+#include "mote/base/log_weights.hpp"
+#include "mote/filter/filter.hpp"
+#include "mote/filter/propose.hpp"
+
+namespace mote {
+
+/// sum over the rows of a step of log p(y | x).
+template <class R, Model M>
+double log_likelihood(const M& model, Step t, const StateOf<M, R>& x, Rows<R> y) {
+  double sum = 0;
+  for (const Row<R>& row : y) sum += static_cast<double>(model.template log_likelihood<R>(t, x, row));
+  return usable(sum);
+}
+
+/// Adds log p(y | x_i) to the log weights.
+template <Model M, class R>
+void weigh(const M& model, Step t, Rows<R> y, const Particles<R>& x, std::span<double> log_weights) {
+  auto state = blank_state<R>(model);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    x.read(i, state);
+    log_weights[i] += log_likelihood<R>(model, t, state, y);
+  }
+}
+
+/// What a weight vector says of its step.
+struct Judgement {
+  double log_sum;  ///< log sum_i exp(log_weights[i]) before normalising
+  double total;    ///< sum of the linear weights
+  double ess;
+  bool collapsed;  ///< all weights zero
+};
+
+/// Normalises log weights (log-sum-exp becomes 0) and writes linear weights with maximum 1; on collapse nothing changes.
+///
+/// cost    O(N), one exponential a particle
+inline Judgement normalise(std::span<double> log_weights, std::span<double> weights) {
+  double largest = -kInfinity;
+  for (const double l : log_weights) largest = largest < l ? l : largest;
+  if (!std::isfinite(largest)) return {-kInfinity, 0, 0, true};
+  const double total = exponentiate(log_weights, largest, weights);
+  const double log_sum = largest + std::log(total);
+  for (double& l : log_weights) l -= log_sum;
+  return {log_sum, total, effective_sample_size(weights), false};
+}
+
+}  // namespace mote

@@ -1,0 +1,156 @@
+#pragma once
+/// Bearings-only tracking by one or several, still or moving sensors.
+
+#include <array>
+
+#include "mote/model/densities.hpp"
+#include "mote/model/model.hpp"
+#include "mote/model/parameter.hpp"
+
+namespace mote {
+
+struct BearingsParameters {
+  double period = 1, sigma_u = 0.001, sigma_r = 0.0488692, damping = 1;
+  double x0 = 0.250, vx0 = 0.001, y0 = 0.240, vy0 = -0.005;
+  double sd_x = 0.02, sd_vx = 0.002, sd_y = 0.02, sd_vy = 0.002;
+  double dof = 0;
+};
+
+struct BearingsWide;
+
+/// Target with damped velocity, driven by white acceleration, seen by its bearing from a sensor:
+///
+///   x' = x + T vx + T^2/2 u,  vx' = damping vx + T u,  (y likewise),   u ~ N(0, sigma_u^2) in each axis
+///   z  = atan2(y - sensor_y, x - sensor_x) - sensor_heading + r,   r ~ sigma_r times N(0, 1) or Student's t(dof)
+///
+/// shape   state (x, vx, y, vy) in m, m/s; one bearing a row, in rad, relative to the sensor's heading; several rows a step
+/// source  MIXED (1)-(3): T = 1 s, damping 1, the sensor at the origin
+///
+/// The noise has two dimensions in a state of four: p(x_t | x_{t-1}) has no density there. log_transition is the density of u
+/// (Density::kNoise): ratios p/g are right, mixture sums over parents are not.
+struct Bearings {
+  using Parameters = BearingsParameters;
+  template <class S>
+  using State = std::array<S, 4>;
+  using Proposals = std::tuple<Prior, BearingsWide>;
+
+  static constexpr std::array<Parameter<Parameters>, 13> kParameters{{
+      {"period", &Parameters::period, Range::kPositive, "s", "time between steps"},
+      {"sigma_u", &Parameters::sigma_u, Range::kNotNegative, "m/s^2", "standard deviation of the acceleration, per axis"},
+      {"sigma_r", &Parameters::sigma_r, Range::kPositive, "rad", "standard deviation (scale, with dof) of the bearing error"},
+      {"damping", &Parameters::damping, Range::kAny, "", "factor on the velocity per step"},
+      {"x0", &Parameters::x0, Range::kAny, "m", "mean of x at t = 0"},
+      {"vx0", &Parameters::vx0, Range::kAny, "m/s", "mean of vx at t = 0"},
+      {"y0", &Parameters::y0, Range::kAny, "m", "mean of y at t = 0"},
+      {"vy0", &Parameters::vy0, Range::kAny, "m/s", "mean of vy at t = 0"},
+      {"sd_x", &Parameters::sd_x, Range::kNotNegative, "m", "standard deviation of x at t = 0"},
+      {"sd_vx", &Parameters::sd_vx, Range::kNotNegative, "m/s", "standard deviation of vx at t = 0"},
+      {"sd_y", &Parameters::sd_y, Range::kNotNegative, "m", "standard deviation of y at t = 0"},
+      {"sd_vy", &Parameters::sd_vy, Range::kNotNegative, "m/s", "standard deviation of vy at t = 0"},
+      {"dof", &Parameters::dof, Range::kNotNegative, "", "degrees of freedom of Student's t error; 0 = Gaussian"},
+  }};
+
+  Parameters p{};
+
+  std::vector<Quantity> states() const { return {{"x", "m"}, {"vx", "m/s"}, {"y", "m"}, {"vy", "m/s"}}; }
+  std::vector<Column> columns() const {
+    return {{"bearing", "rad"}, {"sensor_x", "m", true}, {"sensor_y", "m", true}, {"sensor_heading", "rad", true}};
+  }
+  std::vector<Function<Bearings>> functions() const {
+    return {{{"speed", "m/s"}, [](const auto& x) { return std::hypot(x[1], x[3]); }},
+            {{"course", "rad", true}, [](const auto& x) { return std::atan2(x[3], x[1]); }},
+            {{"range", "m"}, [](const auto& x) { return std::hypot(x[0], x[2]); }},
+            {{"azimuth", "rad", true}, [](const auto& x) { return std::atan2(x[2], x[0]); }}};
+  }
+  Density density() const { return p.sigma_u > 0 ? Density::kNoise : Density::kNone; }
+
+  template <class S, class D>
+  State<S> initial(D& draw) const {
+    const S x = S(p.x0) + S(p.sd_x) * draw.normal();
+    const S vx = S(p.vx0) + S(p.sd_vx) * draw.normal();
+    const S y = S(p.y0) + S(p.sd_y) * draw.normal();
+    const S vy = S(p.vy0) + S(p.sd_vy) * draw.normal();
+    return {x, vx, y, vy};
+  }
+
+  template <class S, class D>
+  State<S> next(Step, const State<S>& before, D& draw) const {
+    const S ux = S(p.sigma_u) * draw.normal();
+    const S uy = S(p.sigma_u) * draw.normal();
+    return moved(before, ux, uy);
+  }
+
+  /// The state after one step under the accelerations (ux, uy).
+  template <class S>
+  State<S> moved(const State<S>& before, const S& ux, const S& uy) const {
+    const S T = S(p.period);
+    const S half = S(0.5 * p.period * p.period);
+    const S d = S(p.damping);
+    return {before[0] + T * before[1] + half * ux, d * before[1] + T * ux, before[2] + T * before[3] + half * uy, d * before[3] + T * uy};
+  }
+
+  template <class S>
+  S log_likelihood(Step, const State<S>& x, const Row<S>& y) const {
+    using namespace numbers;
+    if (!y.seen(0)) return S(0);
+    const S azimuth = atan2(x[2] - y[2], x[0] - y[1]);
+    const S residual = wrap(y[0] + y[3] - azimuth);
+    return p.dof > 0 ? student_log_density(residual, p.sigma_r, p.dof) : normal_log_density(residual, p.sigma_r * p.sigma_r);
+  }
+
+  /// The density of the acceleration that leads from `before` to `x`, read off the velocities.
+  template <class S>
+  S log_transition(Step, const State<S>& x, const State<S>& before) const {
+    return log_noise(x, before, p.sigma_u);
+  }
+
+  /// log N(u; 0, sigma^2 I) of the acceleration u that leads from `before` to `x`.
+  template <class S>
+  S log_noise(const State<S>& x, const State<S>& before, double sigma) const {
+    const S d = S(p.damping);
+    const S per_period = S(1 / p.period);
+    return normal_log_density((x[1] - d * before[1]) * per_period, sigma * sigma) +
+           normal_log_density((x[3] - d * before[3]) * per_period, sigma * sigma);
+  }
+
+  template <class S, class D>
+  Row<S> observe(Step, const State<S>& x, const Row<S>& inputs, D& draw) const {
+    using namespace numbers;
+    const S error = S(p.sigma_r) * (p.dof > 0 ? student(draw) : S(draw.normal()));
+    const S bearing = wrap(atan2(x[2] - inputs[2], x[0] - inputs[1]) - inputs[3] + error);
+    return Row<S>::of({bearing, inputs[1], inputs[2], inputs[3]});
+  }
+
+ private:
+  /// Student's t by Bailey's polar formula: two uniforms, any dof > 0.
+  template <class D>
+  auto student(D& draw) const {
+    using namespace numbers;
+    const auto u = draw.uniform();
+    const auto angle = draw.uniform();
+    using S = std::remove_const_t<decltype(u)>;
+    return sqrt(S(p.dof) * (exp(log(u) * S(-2 / p.dof)) - S(1))) * cos(S(2 * kPi) * angle);
+  }
+};
+
+/// A proposal in noise space: accelerations three times wider than the model's, for targets that manoeuvre more than it says.
+///
+///   u ~ g = N(0, (3 sigma_u)^2 I),   weight p(z | x) p(u) / g(u)
+struct BearingsWide {
+  static constexpr std::string_view kName = "wide";
+  static constexpr std::string_view kMeaning = "accelerations drawn three times wider than the model's, weighted in noise space";
+  static constexpr double kWider = 3;
+
+  template <class S, class D>
+  std::array<S, 4> propose(const Bearings& model, Step, const std::array<S, 4>& before, Rows<S>, D& draw) const {
+    const S ux = S(kWider * model.p.sigma_u) * draw.normal();
+    const S uy = S(kWider * model.p.sigma_u) * draw.normal();
+    return model.moved(before, ux, uy);
+  }
+  template <class S>
+  S log_density(const Bearings& model, Step, const std::array<S, 4>& x, const std::array<S, 4>& before, Rows<S>) const {
+    return model.log_noise(x, before, kWider * model.p.sigma_u);
+  }
+};
+
+}  // namespace mote

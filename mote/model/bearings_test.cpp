@@ -1,0 +1,43 @@
+#include "mote/model/bearings.hpp"
+
+#include "mote/model/laws.hpp"
+
+namespace mote {
+namespace {
+
+MOTE_MODEL_LAWS(Bearings, Bearings{})
+MOTE_MODEL_LAWS(BearingsStudent, Bearings{{0.5, 0.05, 0.02, 0.9, 2, 0.1, 3, -0.1, 0.2, 0.02, 0.2, 0.02, 4}})
+
+TEST(Bearings, MovesAsTheCatalogueSays) {
+  Bearings model;
+  model.p.period = 0.5;
+  model.p.damping = 0.9;
+  const auto x = model.moved<double>({1, 2, 3, 4}, 0.2, -0.4);
+  EXPECT_DOUBLE_EQ(x[0], 1 + 0.5 * 2 + 0.125 * 0.2);
+  EXPECT_DOUBLE_EQ(x[1], 0.9 * 2 + 0.5 * 0.2);
+  EXPECT_DOUBLE_EQ(x[2], 3 + 0.5 * 4 - 0.125 * 0.4);
+  EXPECT_DOUBLE_EQ(x[3], 0.9 * 4 - 0.5 * 0.4);
+}
+
+TEST(Bearings, SeesRelativeToPositionAndHeadingOfTheSensor) {
+  const Bearings model;
+  const std::array<double, 4> x{3, 0, 4, 0};
+  const double azimuth = std::atan2(4.0 - 2.0, 3.0 - 1.0);
+  const auto best = model.log_likelihood<double>(1, x, Row<double>::of({azimuth - 0.7, 1, 2, 0.7}));
+  EXPECT_NEAR(best, -std::log(model.p.sigma_r) - 0.5 * std::log(2 * kPi), 1e-9);
+  const auto turned = model.log_likelihood<double>(1, x, Row<double>::of({azimuth - 0.7 + 2 * kPi, 1, 2, 0.7}));
+  EXPECT_NEAR(turned, best, 1e-9) << "whole turns do not matter";
+  EXPECT_LT(model.log_likelihood<double>(1, x, Row<double>::of({azimuth - 0.7 + 0.1, 1, 2, 0.7})), best - 1);
+}
+
+TEST(Bearings, WideProposalWeighsInNoiseSpace) {
+  const Bearings model;
+  const std::array<double, 4> before{0.2, 0.001, 0.3, -0.002};
+  const auto x = model.moved<double>(before, 0.0005, -0.0015);
+  const double ratio = model.log_transition<double>(1, x, before) - BearingsWide{}.log_density<double>(model, 1, x, before, {});
+  const double u2 = (0.0005 * 0.0005 + 0.0015 * 0.0015) / (model.p.sigma_u * model.p.sigma_u);
+  EXPECT_NEAR(ratio, 2 * std::log(3.0) - 0.5 * u2 * (1 - 1 / 9.0), 1e-9);
+}
+
+}  // namespace
+}  // namespace mote

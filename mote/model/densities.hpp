@@ -1,0 +1,32 @@
+#pragma once
+/// Log densities that models share, generic in the number type.
+
+#include <cmath>
+
+#include "mote/base/numbers.hpp"
+
+namespace mote {
+
+/// log N(e; 0, variance).
+///
+///   -e^2 / (2 variance) - log(2 pi variance) / 2
+///
+/// shape   variance > 0, the same for all particles
+template <class S>
+S normal_log_density(const S& residual, double variance) {
+  return residual * residual * S(-0.5 / variance) + S(-0.5 * std::log(2 * kPi * variance));
+}
+
+/// Student's log density with `dof` degrees of freedom and a scale.
+///
+///   log [ Gamma((v+1)/2) / (Gamma(v/2) sqrt(v pi) s) ] - (v+1)/2 log(1 + e^2 / (v s^2))
+///
+/// shape   dof > 0, scale > 0
+template <class S>
+S student_log_density(const S& residual, double scale, double dof) {
+  using namespace numbers;
+  const double constant = std::lgamma((dof + 1) / 2) - std::lgamma(dof / 2) - 0.5 * std::log(dof * kPi) - std::log(scale);
+  return S(constant) - S((dof + 1) / 2) * log(S(1) + residual * residual * S(1 / (dof * scale * scale)));
+}
+
+}  // namespace mote

@@ -1,0 +1,360 @@
+#pragma once
+/// The laws every model obeys, as tests: `MOTE_MODEL_LAWS(Ungm, Ungm<1>{})` ends a model's test file.
+///
+/// Two number types stand in for those of later engines: a recording Node (a graph) and a Pack (a vector of four).
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "mote/model/model.hpp"
+
+namespace mote::laws {
+
+/// A dataflow graph recorded by running a model's lines on Node: operations in order, evaluated later.
+class Tape {
+ public:
+  using Operation = double (*)(double, double, double);
+  int record(Operation operation, int a = -1, int b = -1, int c = -1, double value = 0) {
+    steps_.push_back({operation, a, b, c, value});
+    return static_cast<int>(steps_.size()) - 1;
+  }
+  int input() { return record(nullptr); }
+  std::size_t size() const { return steps_.size(); }
+
+  /// The value of every node, with the inputs (in order of their creation) set to `inputs`.
+  std::vector<double> evaluate(const std::vector<double>& inputs) const {
+    std::vector<double> values;
+    std::size_t next_input = 0;
+    for (const auto& step : steps_) {
+      const auto at = [&](int i) { return i < 0 ? step.value : values[static_cast<std::size_t>(i)]; };
+      values.push_back(step.operation == nullptr ? inputs.at(next_input++) : step.operation(at(step.a), at(step.b), at(step.c)));
+    }
+    return values;
+  }
+  static Tape*& current() {
+    static Tape* tape = nullptr;
+    return tape;
+  }
+
+ private:
+  struct Entry {
+    Operation operation;
+    int a, b, c;
+    double value;
+  };
+  std::vector<Entry> steps_;
+};
+
+/// A number that records what is done with it.
+struct Node {
+  int id;
+  Node() : id(-1) {}
+  explicit Node(double constant) : id(record([](double value, double, double) { return value; }, -1, -1, -1, constant)) {}
+  static int record(Tape::Operation f, int a, int b = -1, int c = -1, double value = 0) { return Tape::current()->record(f, a, b, c, value); }
+  static Node make(Tape::Operation f, Node a, Node b = {}, Node c = {}) {
+    Node node;
+    node.id = record(f, a.id, b.id, c.id);
+    return node;
+  }
+  friend Node operator+(Node a, Node b) { return make([](double x, double y, double) { return x + y; }, a, b); }
+  friend Node operator-(Node a, Node b) { return make([](double x, double y, double) { return x - y; }, a, b); }
+  friend Node operator*(Node a, Node b) { return make([](double x, double y, double) { return x * y; }, a, b); }
+  friend Node operator/(Node a, Node b) { return make([](double x, double y, double) { return x / y; }, a, b); }
+  friend Node operator-(Node a) { return make([](double x, double, double) { return -x; }, a); }
+  friend Node less(Node a, Node b) { return make([](double x, double y, double) { return x < y ? 1.0 : 0.0; }, a, b); }
+  friend Node select(Node c, Node a, Node b) { return make([](double k, double x, double y) { return k != 0 ? x : y; }, c, a, b); }
+  friend Node atan2(Node a, Node b) { return make([](double x, double y, double) { return std::atan2(x, y); }, a, b); }
+#define MOTE_UNARY(f) \
+  friend Node f(Node a) { return make([](double x, double, double) { return std::f(x); }, a); }
+  MOTE_UNARY(sqrt) MOTE_UNARY(exp) MOTE_UNARY(log) MOTE_UNARY(sin) MOTE_UNARY(cos) MOTE_UNARY(tan) MOTE_UNARY(atan) MOTE_UNARY(abs) MOTE_UNARY(floor)
+#undef MOTE_UNARY
+};
+
+/// Four numbers at once, as a vector engine holds them.
+struct Pack {
+  static constexpr std::size_t kLanes = 4;
+  std::array<double, kLanes> v{};
+  Pack() = default;
+  explicit Pack(double all) { v.fill(all); }
+  template <class F, class... P>
+  static Pack map(F f, const P&... packs) {
+    Pack out;
+    for (std::size_t i = 0; i < kLanes; ++i) out.v[i] = f(packs.v[i]...);
+    return out;
+  }
+  friend Pack operator+(Pack a, Pack b) { return map([](double x, double y) { return x + y; }, a, b); }
+  friend Pack operator-(Pack a, Pack b) { return map([](double x, double y) { return x - y; }, a, b); }
+  friend Pack operator*(Pack a, Pack b) { return map([](double x, double y) { return x * y; }, a, b); }
+  friend Pack operator/(Pack a, Pack b) { return map([](double x, double y) { return x / y; }, a, b); }
+  friend Pack operator-(Pack a) { return map([](double x) { return -x; }, a); }
+  friend Pack less(Pack a, Pack b) { return map([](double x, double y) { return x < y ? 1.0 : 0.0; }, a, b); }
+  friend Pack select(Pack c, Pack a, Pack b) { return map([](double k, double x, double y) { return k != 0 ? x : y; }, c, a, b); }
+  friend Pack atan2(Pack a, Pack b) { return map([](double x, double y) { return std::atan2(x, y); }, a, b); }
+#define MOTE_UNARY(f) \
+  friend Pack f(Pack a) { return map([](double x) { return std::f(x); }, a); }
+  MOTE_UNARY(sqrt) MOTE_UNARY(exp) MOTE_UNARY(log) MOTE_UNARY(sin) MOTE_UNARY(cos) MOTE_UNARY(tan) MOTE_UNARY(atan) MOTE_UNARY(abs) MOTE_UNARY(floor)
+#undef MOTE_UNARY
+};
+
+/// Draws that are read from lists, so that every number type gets the same ones; counts what is taken.
+template <class S>
+struct ListedDraw {
+  std::vector<S> normals, uniforms;
+  std::size_t taken_normals = 0, taken_uniforms = 0;
+  S normal() { return normals.at(taken_normals++); }
+  S uniform() { return uniforms.at(taken_uniforms++); }
+};
+
+inline constexpr std::size_t kListed = 64;
+
+inline ListedDraw<double> listed(Draw<double>& source) {
+  ListedDraw<double> draw;
+  for (std::size_t i = 0; i < kListed; ++i) {
+    draw.normals.push_back(source.normal());
+    draw.uniforms.push_back(source.uniform());
+  }
+  return draw;
+}
+
+/// A state the model reaches by itself after `steps` steps, and a row that it could observe there.
+template <class M>
+struct Scene {
+  StateOf<M, double> before, x;
+  Row<double> y;
+  Step t;
+};
+
+template <class M>
+Scene<M> scene(const M& model, Step t, Draw<double>& draw) {
+  StateOf<M, double> before = model.template initial<double>(draw);
+  for (Step s = 1; s < t; ++s) before = model.template next<double>(s, before, draw);
+  StateOf<M, double> x = model.template next<double>(t, before, draw);
+  Row<double> y = model.template observe<double>(t, x, blank_row(model), draw);
+  return {before, x, y, t};
+}
+
+/// All that a model computes at a scene – next state, log likelihood, log transition – in the number type S, as one list.
+template <class S, class M, class D>
+std::vector<S> everything(const M& model, Step t, const StateOf<M, S>& before, const StateOf<M, S>& x, const Row<S>& y, D& draw) {
+  std::vector<S> all;
+  for (const S& v : model.template initial<S>(draw)) all.push_back(v);
+  for (const S& v : model.template next<S>(t, before, draw)) all.push_back(v);
+  all.push_back(model.template log_likelihood<S>(t, x, y));
+  if constexpr (HasTransition<M>) all.push_back(model.template log_transition<S>(t, x, before));
+  return all;
+}
+
+template <class S, class M>
+StateOf<M, S> lifted(const M& model, const std::vector<S>& values) {
+  auto state = blank_state<S>(model);
+  std::copy(values.begin(), values.end(), state.begin());
+  return state;
+}
+
+template <class M>
+void expect_recording_equals_direct(const M& model) {
+  auto block = Draws{11, 0}.block(Purpose::kTest);
+  auto source = block.particle(0);
+  for (Step t = 1; t <= 20; ++t) {
+    const auto at = scene(model, t, source);
+    auto numbers = listed(source);
+    const auto direct = everything<double>(model, t, at.before, at.x, at.y, numbers);
+
+    Tape tape;
+    Tape::current() = &tape;
+    std::vector<double> inputs;
+    const auto input = [&](double value) {
+      inputs.push_back(value);
+      Node node;
+      node.id = tape.input();
+      return node;
+    };
+    const auto inputs_of = [&](const auto& list) {
+      std::vector<Node> nodes;
+      for (const double v : list) nodes.push_back(input(v));
+      return nodes;
+    };
+    const auto before = lifted<Node>(model, inputs_of(at.before));
+    const auto x = lifted<Node>(model, inputs_of(at.x));
+    const Row<Node> y{inputs_of(at.y.values), at.y.present};
+    ListedDraw<Node> draw{inputs_of(numbers.normals), inputs_of(numbers.uniforms)};
+    const auto recorded = everything<Node>(model, t, before, x, y, draw);
+    const auto values = tape.evaluate(inputs);
+    ASSERT_EQ(recorded.size(), direct.size());
+    for (std::size_t i = 0; i < direct.size(); ++i) EXPECT_EQ(values[static_cast<std::size_t>(recorded[i].id)], direct[i]) << "output " << i << " at t = " << t;
+  }
+}
+
+template <class M>
+void expect_vector_equals_lanes(const M& model) {
+  auto block = Draws{12, 0}.block(Purpose::kTest);
+  auto source = block.particle(0);
+  const Step t = 5;
+  std::vector<Scene<M>> scenes;
+  std::vector<ListedDraw<double>> draws;
+  for (std::size_t lane = 0; lane < Pack::kLanes; ++lane) {
+    scenes.push_back(scene(model, t, source));
+    draws.push_back(listed(source));
+  }
+  const auto packed = [&](auto&& part) {
+    std::vector<Pack> packs(part(0).size());
+    for (std::size_t lane = 0; lane < Pack::kLanes; ++lane)
+      for (std::size_t i = 0; i < packs.size(); ++i) packs[i].v[lane] = part(lane)[i];
+    return packs;
+  };
+  const auto before = lifted<Pack>(model, packed([&](std::size_t l) { return scenes[l].before; }));
+  const auto x = lifted<Pack>(model, packed([&](std::size_t l) { return scenes[l].x; }));
+  const Row<Pack> y{packed([&](std::size_t l) { return scenes[l].y.values; }), scenes[0].y.present};
+  ListedDraw<Pack> draw{packed([&](std::size_t l) { return draws[l].normals; }), packed([&](std::size_t l) { return draws[l].uniforms; })};
+  const auto all = everything<Pack>(model, t, before, x, y, draw);
+  for (std::size_t lane = 0; lane < Pack::kLanes; ++lane) {
+    const auto direct = everything<double>(model, t, scenes[lane].before, scenes[lane].x, scenes[lane].y, draws[lane]);
+    for (std::size_t i = 0; i < direct.size(); ++i) EXPECT_EQ(all[i].v[lane], direct[i]);
+  }
+}
+
+/// Float gives the double result to float's resolution.
+template <class M>
+void expect_float_follows_double(const M& model) {
+  auto block = Draws{13, 0}.block(Purpose::kTest);
+  auto source = block.particle(0);
+  const auto at = scene(model, 3, source);
+  auto numbers = listed(source);
+  const auto direct = everything<double>(model, 3, at.before, at.x, at.y, numbers);
+  const auto shortened = [](const auto& list) { return std::vector<float>(list.begin(), list.end()); };
+  ListedDraw<float> draw{shortened(numbers.normals), shortened(numbers.uniforms)};
+  const auto single = everything<float>(model, 3, lifted<float>(model, shortened(at.before)), lifted<float>(model, shortened(at.x)), at.y.template as<float>(), draw);
+  for (std::size_t i = 0; i < direct.size(); ++i) EXPECT_NEAR(static_cast<double>(single[i]), direct[i], 2e-3 * (1 + std::abs(direct[i]))) << "output " << i;
+}
+
+/// The same number of draws for any state: what addressing and vectors rest on.
+template <class M>
+void expect_constant_draws(const M& model) {
+  auto block = Draws{14, 0}.block(Purpose::kTest);
+  auto source = block.particle(0);
+  std::vector<std::array<std::size_t, 2>> taken;
+  for (Step t = 1; t <= 50; ++t) {
+    const auto at = scene(model, t, source);
+    auto draw = listed(source);
+    model.template next<double>(t, at.before, draw);
+    taken.push_back({draw.taken_normals, draw.taken_uniforms});
+  }
+  for (const auto& count : taken) EXPECT_EQ(count, taken.front());
+}
+
+/// z score of the claim that the mean of f(i), i < n, is 1.
+template <class F>
+double z_of_mean_one(int n, F f) {
+  double sum = 0;
+  double squares = 0;
+  for (int i = 0; i < n; ++i) {
+    const double v = f();
+    sum += v;
+    squares += v * v;
+  }
+  const double mean = sum / n;
+  return (mean - 1) / std::sqrt((squares / n - mean * mean) / n + 1e-300);
+}
+
+/// A state near `from` whose image under the model lies about `shift` standard deviations of one step away.
+template <class M, class Image>
+StateOf<M, double> nearby(const StateOf<M, double>& from, const std::vector<double>& spread, double shift, Image image) {
+  const auto reference = image(from);
+  for (double delta = shift;; delta /= 2) {
+    auto other = from;
+    for (std::size_t d = 0; d < other.size(); ++d) other[d] += delta * spread[d];
+    const auto moved = image(other);
+    bool near = true;
+    for (std::size_t d = 0; d < reference.size(); ++d) near = near && std::abs(moved[d] - reference[d]) <= shift * spread[d] + 1e-12;
+    if (near) return other;
+  }
+}
+
+// claim    log_transition is the density of next():  E[ p(x | b') / p(x | b) ] = 1 for x drawn from b
+// referee  the identity itself, b' about 0.7 standard deviations away
+// design   40 000 draws, one fixed seed
+// risk     1e-6 (|z| < 4.89); the twin, the density raised to the power 0.7, must fail
+template <HasTransition M>
+void expect_transition_density(const M& model) {
+  auto block = Draws{15, 0}.block(Purpose::kTest);
+  auto draw = block.particle(0);
+  const Step t = 3;
+  const auto at = scene(model, t, draw);
+  std::vector<double> spread;
+  {
+    std::vector<StateOf<M, double>> samples;
+    for (int i = 0; i < 500; ++i) samples.push_back(model.template next<double>(t, at.before, draw));
+    for (std::size_t d = 0; d < at.before.size(); ++d) {
+      double mean = 0;
+      double squares = 0;
+      for (const auto& s : samples) mean += s[d] / 500;
+      for (const auto& s : samples) squares += (s[d] - mean) * (s[d] - mean) / 500;
+      spread.push_back(std::sqrt(squares));
+    }
+  }
+  const auto other = nearby<M>(at.before, spread, 0.7, [&](const auto& b) {
+    ListedDraw<double> still{std::vector<double>(kListed, 0.0), std::vector<double>(kListed, 0.5)};
+    return model.template next<double>(t, b, still);
+  });
+  const auto ratio = [&](double power) {
+    return z_of_mean_one(40000, [&] {
+      const auto x = model.template next<double>(t, at.before, draw);
+      return std::exp(power * (model.template log_transition<double>(t, x, other) - model.template log_transition<double>(t, x, at.before)));
+    });
+  };
+  EXPECT_LT(std::abs(ratio(1.0)), 4.89);
+  EXPECT_GT(std::abs(ratio(0.7)), 4.89) << "the twin must fail";
+}
+
+// claim    log_likelihood is the density of observe():  E[ p(y | x') / p(y | x) ] = 1 for y drawn from x
+// design, risk and twin as for the transition
+template <Observable M>
+void expect_observation_density(const M& model) {
+  auto block = Draws{16, 0}.block(Purpose::kTest);
+  auto draw = block.particle(0);
+  const auto at = scene(model, 4, draw);
+  const Row<double> inputs = blank_row(model);
+  const auto log_ratio = [&](const auto& other, const auto& y) {
+    return model.template log_likelihood<double>(4, other, y) - model.template log_likelihood<double>(4, at.x, y);
+  };
+  // shrink the displacement until the log ratio has a standard deviation of about 0.7 or less
+  auto other = at.x;
+  for (double delta = 1;; delta /= 2) {
+    for (std::size_t d = 0; d < other.size(); ++d) other[d] = at.x[d] + (d % 4 < 2 ? delta : -delta) * (0.01 + std::abs(at.x[d]));
+    double squares = 0;
+    for (int i = 0; i < 200; ++i) squares += std::pow(log_ratio(other, model.template observe<double>(4, at.x, inputs, draw)), 2) / 200;
+    if (squares < 0.6) break;
+  }
+  const auto ratio = [&](double power) {
+    return z_of_mean_one(40000, [&] { return std::exp(power * log_ratio(other, model.template observe<double>(4, at.x, inputs, draw))); });
+  };
+  EXPECT_LT(std::abs(ratio(1.0)), 4.89);
+  EXPECT_GT(std::abs(ratio(0.7)), 4.89) << "the twin must fail";
+}
+
+/// An empty field contributes nothing; a row of empty fields has likelihood one.
+template <class M>
+void expect_empty_fields_are_silent(const M& model) {
+  auto block = Draws{17, 0}.block(Purpose::kTest);
+  auto draw = block.particle(0);
+  const auto at = scene(model, 2, draw);
+  EXPECT_EQ(model.template log_likelihood<double>(2, at.x, blank_row(model)), 0.0);
+  EXPECT_EQ(model.columns().size(), at.y.values.size());
+  EXPECT_EQ(model.states().size(), at.x.size());
+}
+
+}  // namespace mote::laws
+
+/// The laws of one model; `...` is an expression that makes it.
+#define MOTE_MODEL_LAWS(Name, ...)                                                                                          \
+  static_assert(::mote::Observable<decltype(__VA_ARGS__)>);                                                                 \
+  TEST(Name##Laws, RecordingEqualsDirectBitForBit) { ::mote::laws::expect_recording_equals_direct(__VA_ARGS__); }           \
+  TEST(Name##Laws, VectorEqualsLanes) { ::mote::laws::expect_vector_equals_lanes(__VA_ARGS__); }                            \
+  TEST(Name##Laws, FloatFollowsDouble) { ::mote::laws::expect_float_follows_double(__VA_ARGS__); }                          \
+  TEST(Name##Laws, DrawsAreConstantInNumber) { ::mote::laws::expect_constant_draws(__VA_ARGS__); }                          \
+  TEST(Name##Laws, TransitionIsTheDensityOfNext) { ::mote::laws::expect_transition_density(__VA_ARGS__); }                  \
+  TEST(Name##Laws, LikelihoodIsTheDensityOfObserve) { ::mote::laws::expect_observation_density(__VA_ARGS__); }              \
+  TEST(Name##Laws, EmptyFieldsAreSilent) { ::mote::laws::expect_empty_fields_are_silent(__VA_ARGS__); }
