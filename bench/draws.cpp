@@ -21,7 +21,7 @@ using Words8 = std::uint64_t __attribute__((vector_size(64)));
 using Words16 = std::uint32_t __attribute__((vector_size(64)));
 constexpr std::size_t kLanes8 = 8;
 constexpr std::size_t kLanes16 = 16;
-constexpr Address kAddress{42, 7, Purpose::kTest, 3};
+constexpr Address kAddress{42, 7, Purpose::kTest, 3, 5};
 
 template <class V>
 void rotate(V& x, int k) {
@@ -108,10 +108,10 @@ Xoshiro8 keyed_one_by_one(const Address& address) {
 /// The same eight generators, keyed by two vector Philox blocks.
 Xoshiro8 keyed_together(const Address& address) {
   const Words8 zero{};
+  const std::uint64_t use = static_cast<std::uint32_t>(address.purpose) + (address.stream << 8U);
   Xoshiro8 out{};
   for (std::uint64_t half = 0; half < 2; ++half) {
-    Philox16<10>::Half c{zero + address.block, zero + address.step, zero + static_cast<std::uint64_t>(address.purpose),
-                         kFirstEight + 8 * half};
+    Philox16<10>::Half c{zero + address.block, zero + address.step, zero + use, kFirstEight + 8 * half};
     Philox16<10>::encrypt(c, address.seed & 0xFFFFFFFFU, address.seed >> 32U);
     out.s[2 * half] = (c[1] << 32) | c[0];
     out.s[2 * half + 1] = (c[3] << 32) | c[2];
