@@ -12,7 +12,7 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-LAWFUL = "int twice(int number) { return 2 * number; }\n"
+LAWFUL = "int twice(int number) { return kTwo * number; }\n"  # kTwo comes from the precompiled header
 
 
 def lint_module():
@@ -34,6 +34,8 @@ def lint(what, text):
         source.parent.mkdir(parents=True)
         source.write_text(text, encoding="utf-8")
         (root / "build").mkdir()
+        (root / "cmake_pch.hxx").write_text("constexpr int kTwo = 2;\n", encoding="utf-8")
+        (root / "cmake_pch.hxx.gch").write_bytes(b"gpch.013")
         command = ["g++", "-std=c++20", "-Winvalid-pch", "-include", str(root / "cmake_pch.hxx"), "-march=native", "-c", str(source)]
         entry = {"directory": str(root), "file": str(source), "arguments": command}
         (root / "build" / "compile_commands.json").write_text(json.dumps([entry]), encoding="utf-8")
@@ -44,7 +46,7 @@ def lint(what, text):
 class Lint(unittest.TestCase):
     def test_format(self):
         self.assertEqual(lint("format", LAWFUL), (0, ""))
-        code, said = lint("format", LAWFUL.replace("2 *", "2  *"))
+        code, said = lint("format", LAWFUL.replace("kTwo *", "kTwo  *"))
         self.assertEqual(code, 1)
         self.assertIn("one.cpp:1", said)
 
@@ -57,8 +59,15 @@ class Lint(unittest.TestCase):
         self.assertIn("readability-identifier-naming", said)
 
     def test_a_command_of_gcc_becomes_one_of_clang(self):
-        command = "g++ -I/x -O3 -Wall -Winvalid-pch -include /b/cmake_pch.hxx -march=native -std=c++20 -c a.cpp".split()
-        self.assertEqual(lint_module().for_clang(command), "g++ -I/x -O3 -march=native -std=c++20 -c a.cpp".split())
+        with tempfile.TemporaryDirectory() as folder:
+            header = pathlib.Path(folder, "cmake_pch.hxx")
+            header.write_text("#include <vector>\n", encoding="utf-8")
+            command = f"g++ -I/x -O3 -Wall -Winvalid-pch -include {header} -march=native -std=c++20 -c a.cpp".split()
+            kept = lint_module().for_clang(command, pathlib.Path(folder, "lint"))
+            copy = pathlib.Path(kept.pop(kept.index("-include") + 1))
+            self.assertEqual(kept, "g++ -I/x -O3 -include -march=native -std=c++20 -c a.cpp".split())
+            self.assertNotEqual(copy, header)
+            self.assertEqual(copy.read_text(encoding="utf-8"), "#include <vector>\n")
 
     def test_wrong_use_is_refused(self):
         done = subprocess.run([ROOT / "tools" / "lint", "tidy", "no/such/file.cpp"], capture_output=True, text=True, check=False)
