@@ -20,7 +20,7 @@ function(mote_room name)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   set_property(GLOBAL APPEND PROPERTY MOTE_ROOMS ${target})
   install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/mote/${name}
-          FILES_MATCHING PATTERN "*.hpp" PATTERN "node_modules" EXCLUDE PATTERN "testing" EXCLUDE)
+          FILES_MATCHING PATTERN "*.hpp" PATTERN "page" EXCLUDE)
   if(MOTE_TESTS)
     mote_tests(${name}_tests "" SOURCES ${ARG_TESTS} LINKS ${target} ${ARG_TEST_LINKS})
     mote_tests(${name}_nightly nightly SOURCES ${ARG_NIGHTLY} LINKS ${target} ${ARG_TEST_LINKS})

@@ -13,12 +13,11 @@ namespace mote {
 struct ObservedStep {
   Step t;
   std::vector<Row<double>> rows;  ///< rows with at least one observation seen
-  std::vector<double> shown;      ///< the first measurement of each observation column, NaN if none: for plots
 };
 
 /// A recording: its steps in increasing t, gaps allowed, the first at any t >= 1.
 struct Recording {
-  std::vector<std::string> observation_names;
+  std::vector<Column> observations;  ///< the observation columns
   std::vector<ObservedStep> steps;
 };
 

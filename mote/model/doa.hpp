@@ -51,7 +51,7 @@ struct Doa {
   std::vector<Quantity> states() const { return {{"theta", "rad", true}, {"q", "1/step"}, {"phi", "rad", true}}; }
   std::vector<Column> columns() const {
     std::vector<Column> all;
-    for (std::size_t m = 1; m <= frame; ++m) all.push_back({"doa" + std::to_string(m), "rad"});
+    for (std::size_t m = 1; m <= frame; ++m) all.push_back({.name = "doa" + std::to_string(m), .unit = "rad", .state = "theta"});
     return all;
   }
   Density density() const { return p.sigma_theta > 0 && p.sigma_q > 0 && p.sigma_phi > 0 ? Density::kState : Density::kNone; }

@@ -35,7 +35,7 @@ struct LocalLevel {
   Parameters p{};
 
   std::vector<Quantity> states() const { return {{"level", ""}}; }
-  std::vector<Column> columns() const { return {{"y", ""}}; }
+  std::vector<Column> columns() const { return {{.name = "y", .unit = "", .state = "level"}}; }
   Density density() const { return p.var_level > 0 ? Density::kState : Density::kNone; }
 
   template <class S, class D>

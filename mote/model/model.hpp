@@ -35,6 +35,7 @@ struct Column {
   std::string unit;
   bool input = false;
   double fallback = 0;  ///< the value of an input whose column is missing
+  std::string state = {};  ///< the state that an observation measures directly, if any: they are plotted together
 };
 
 /// One row of data: the model's observation columns in order, then its inputs. An observation may be missing.

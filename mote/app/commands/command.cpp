@@ -22,6 +22,24 @@ std::string one_line(std::string text) {
   return text;
 }
 
+/// The command line as a shell takes it again; the program by its name.
+std::string shell_line(int count, char** words) {
+  std::string line = "mote";
+  for (int i = 1; i < count; ++i) {
+    const std::string word = words[i];
+    const bool plain = !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=./,:+%@") == std::string::npos;
+    line += ' ';
+    if (plain) {
+      line += word;
+      continue;
+    }
+    line += '\'';
+    for (const char c : word) line += c == '\'' ? "'\\''" : std::string(1, c);
+    line += '\'';
+  }
+  return line;
+}
+
 /// A command bound to CLI11, with a place for what is given.
 struct Bound {
   Command command;
@@ -29,13 +47,13 @@ struct Bound {
   std::map<std::string, std::vector<std::string>> values;
   std::map<std::string, CLI::Option*> options;
 
-  Arguments arguments() const {
+  Arguments arguments(const std::string& command_line) const {
     std::map<std::string, std::vector<std::string>> given;
     std::map<std::string, std::string> fallbacks;
     for (const auto& [name, option] : options)
       if (option->count() > 0) given[name] = values.at(name);
     for (const OptionSpec& spec : command.options) fallbacks[long_flag(spec.flags)] = spec.fallback;
-    return {"mote " + command.name, std::move(given), std::move(fallbacks)};
+    return {"mote " + command.name, command_line, std::move(given), std::move(fallbacks)};
   }
 };
 
@@ -75,11 +93,11 @@ int refused(const std::string& sentence, ExitCode code) {
   return static_cast<int>(code);
 }
 
-int dispatched(const CLI::App& program, const std::vector<std::unique_ptr<Bound>>& commands) {
+int dispatched(const CLI::App& program, const std::vector<std::unique_ptr<Bound>>& commands, const std::string& command_line) {
   for (const auto& bound : commands) {
     if (!bound->app->parsed()) continue;
     try {
-      return static_cast<int>(bound->command.run(bound->arguments()));
+      return static_cast<int>(bound->command.run(bound->arguments(command_line)));
     } catch (const Refusal& refusal) {
       return refused(refusal.what(), refusal.code());
     } catch (const std::bad_alloc&) {
@@ -155,7 +173,7 @@ int run_program(int count, char** words) {
       if (bound->app->parsed()) where += " " + bound->command.name;
     return refused(sentence_for(error, where), ExitCode::kWrongUse);
   }
-  return dispatched(program, commands);
+  return dispatched(program, commands, shell_line(count, words));
 }
 
 }  // namespace mote

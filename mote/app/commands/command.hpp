@@ -29,9 +29,13 @@ struct PositionalSpec {
 /// The options given on one command line.
 class Arguments {
  public:
-  Arguments(std::string where, std::map<std::string, std::vector<std::string>> given, std::map<std::string, std::string> fallbacks) : where_(std::move(where)), given_(std::move(given)), fallbacks_(std::move(fallbacks)) {}
+  Arguments(std::string where, std::string command_line, std::map<std::string, std::vector<std::string>> given, std::map<std::string, std::string> fallbacks)
+      : where_(std::move(where)), command_line_(std::move(command_line)), given_(std::move(given)), fallbacks_(std::move(fallbacks)) {}
 
+  /// "mote run": what opens a refusal.
   const std::string& where() const { return where_; }
+  /// The command line as a shell takes it again.
+  const std::string& command_line() const { return command_line_; }
   bool given(const std::string& name) const { return given_.contains(name); }
   /// The text of an option, or its default.
   std::string text(const std::string& name) const;
@@ -45,7 +49,7 @@ class Arguments {
   std::string required(const std::string& name, const std::string& expected, const std::string& next) const;
 
  private:
-  std::string where_;
+  std::string where_, command_line_;
   std::map<std::string, std::vector<std::string>> given_;
   std::map<std::string, std::string> fallbacks_;
 };

@@ -7,6 +7,7 @@
 
 #include "mote/app/files/recording_file.hpp"
 #include "mote/base/refusal.hpp"
+#include "mote/report/run_page.hpp"
 
 namespace mote {
 namespace {
@@ -74,6 +75,8 @@ RunRecord run_job(const Job& job, const Plan& plan, const RunRequest& request, c
   return record;
 }
 
-std::string report_for(const Job&, const RunRecord&, const Summary&) { return ""; }
+std::string report_for(const Job& job, const RunRecord& record, const Summary& summary) {
+  return report::html(report::run_page(record, summary, job.recording, job.truth ? &*job.truth : nullptr, job.data_path, job.command));
+}
 
 }  // namespace mote

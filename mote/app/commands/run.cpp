@@ -32,6 +32,7 @@ ExitCode run_run(const Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   const Plan plan = plan_from(arguments);
   Job job = load_job(arguments.text("MODEL"), arguments.required("--data", "a CSV file with the recording", "Pass --data obs.csv."), arguments.text("--truth"), arguments.list("--set"), arguments.where());
+  job.command = arguments.command_line();
   for (const std::string& note : job.notes) fmt::print(stderr, "{}\n", note);
   RunRequest request = request_for(job, arguments.list("--estimate"), arguments.where());
   OutputSet outputs;

@@ -57,21 +57,15 @@ Recording recording_from(const Table& table, const std::vector<Column>& columns,
   const auto places = places_of(table, columns, model);
   Recording recording;
   for (const Column& column : columns)
-    if (!column.input) recording.observation_names.push_back(column.name);
+    if (!column.input) recording.observations.push_back(column);
   for (const auto& line : table.lines) {
     const Step t = time_field(table, line);
     const Step before = recording.steps.empty() ? 0 : recording.steps.back().t;
     check_time(table, line, before, t);
-    if (recording.steps.empty() || t > before) recording.steps.push_back({t, {}, std::vector<double>(recording.observation_names.size(), kNaN)});
+    if (recording.steps.empty() || t > before) recording.steps.push_back({t, {}});
     const Row<double> row = row_from(table, line, columns, places);
     if (!observed(row, columns)) continue;
-    ObservedStep& step = recording.steps.back();
-    for (std::size_t j = 0, k = 0; j < columns.size(); ++j) {
-      if (columns[j].input) continue;
-      if (std::isnan(step.shown[k])) step.shown[k] = row[j];
-      ++k;
-    }
-    step.rows.push_back(row);
+    recording.steps.back().rows.push_back(row);
   }
   return recording;
 }
