@@ -165,6 +165,22 @@ std::string Arguments::required(const std::string& name, const std::string& expe
   return given;
 }
 
+Arguments arguments_from(const std::string& where, const std::vector<OptionSpec>& options,
+                         const std::vector<std::string>& words) {
+  CLI::App program;
+  Bound bound;
+  bound.command = {"run", "", {}, options, nullptr, ""};
+  bind(program, bound);
+  std::vector<std::string> reversed(words.rbegin(), words.rend());
+  reversed.emplace_back("run");
+  try {
+    program.parse(std::move(reversed));
+  } catch (const CLI::ParseError& error) {
+    throw Refusal(ExitCode::kWrongUse, where + ": " + one_line(error.what()) + ".");
+  }
+  return bound.arguments(where);
+}
+
 int run_program(int count, char** words) {
   CLI::App program("mote: particle filters, from the model to the machine", "mote");
   program.set_version_flag("--version", "mote " MOTE_VERSION);

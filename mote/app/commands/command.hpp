@@ -67,6 +67,12 @@ struct Command {
   std::string footer;
 };
 
+/// Options given as words, as on a command line (for commands that run others).
+///
+/// error   Refusal (kWrongUse) for words that are no option
+Arguments arguments_from(const std::string& where, const std::vector<OptionSpec>& options,
+                         const std::vector<std::string>& words);
+
 Command models_command();
 Command simulate_command();
 Command run_command();
