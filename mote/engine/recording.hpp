@@ -23,8 +23,8 @@ struct Recording {
 
 /// True states by time; NaN where a state is not known.
 struct Truth {
-  std::vector<bool> known;                      ///< by state: whether the truth names it
-  std::map<Step, std::vector<double>> states;   ///< (D,) each
+  std::vector<bool> known;                     ///< by state: whether the truth names it
+  std::map<Step, std::vector<double>> states;  ///< (D,) each
 };
 
 }  // namespace mote

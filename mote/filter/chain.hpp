@@ -9,8 +9,8 @@
 
 namespace mote {
 
-/// The proposals of P chains in one array: Q that may be kept, chain by chain, then P N_b for burning in, chain by chain.
-/// A chain visits its burn-in proposals first, then its own part of the Q.
+/// The proposals of P chains in one array: Q that may be kept, chain by chain, then P N_b for burning in, chain by
+/// chain. A chain visits its burn-in proposals first, then its own part of the Q.
 struct ChainLayout {
   std::size_t kept;     ///< N, states kept over all chains
   std::size_t draws;    ///< Q >= N
@@ -33,7 +33,8 @@ struct ChainReport {
 ///         starts: (P,) proposal that each chain starts from, or empty: the first that it visits
 /// cost    O(Q + P N_b), one comparison a proposal
 /// source  IMH-HW (11), (16), (17)
-ChainReport run_chains(const ChainLayout& layout, std::span<const double> log_weights, std::span<const double> log_uniforms, std::span<const Index> starts, std::span<Index> picks);
+ChainReport run_chains(const ChainLayout& layout, std::span<const double> log_weights,
+                       std::span<const double> log_uniforms, std::span<const Index> starts, std::span<Index> picks);
 
 /// N_b after which an independent Metropolis chain is within `distance` of its law in total variation, at most `most`.
 ///

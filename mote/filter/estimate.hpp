@@ -15,7 +15,8 @@ struct Moments {
 
 /// Weighted mean and standard deviation; for an angle the circular ones.
 ///
-///   mean = sum W x,  sd = sqrt(sum W (x - mean)^2);   angle: mean = atan2(S, C), sd = sqrt(-2 log |(C, S)|), C = sum W cos x, S = sum W sin x
+///   mean = sum W x,  sd = sqrt(sum W (x - mean)^2);   angle: mean = atan2(S, C), sd = sqrt(-2 log |(C, S)|), C = sum W
+///   cos x, S = sum W sin x
 ///
 /// shape   values, weights: (N,), weights >= 0 with a positive sum
 /// unit    that of the values (rad for an angle)
@@ -24,7 +25,8 @@ struct Moments {
 template <class R>
 Moments moments(std::span<const R> values, std::span<const double> weights, double total, bool angle);
 
-/// The smallest value whose cumulative weight reaches `level` of the total. An angle is unrolled about its circular mean.
+/// The smallest value whose cumulative weight reaches `level` of the total. An angle is unrolled about its circular
+/// mean.
 ///
 /// shape   0 <= level <= 1
 /// cost    O(N log N)

@@ -10,12 +10,12 @@
 
 namespace mote {
 
-/// Weight of a proposal by the mixtures over all parents:  w = p(y | x) sum_i p(x | x^i) / sum_i g(x | x^i, y); with g = p it is p(y | x).
-/// cost    O(N) a proposal when g is not p
-/// source  IMH-HW (12), IMH-OPT (17)
+/// Weight of a proposal by the mixtures over all parents:  w = p(y | x) sum_i p(x | x^i) / sum_i g(x | x^i, y); with g
+/// = p it is p(y | x). cost    O(N) a proposal when g is not p source  IMH-HW (12), IMH-OPT (17)
 struct MixtureWeight {
   template <class R, Model M, class G>
-  static double log_ratio(const M& model, const G& proposal, Step t, const StateOf<M, R>& x, std::size_t, const Particles<R>& parents, Rows<R> y, std::span<double> scratch) {
+  static double log_ratio(const M& model, const G& proposal, Step t, const StateOf<M, R>& x, std::size_t,
+                          const Particles<R>& parents, Rows<R> y, std::span<double> scratch) {
     if constexpr (std::is_same_v<G, Prior>) {
       return 0;
     } else {
@@ -28,26 +28,30 @@ struct MixtureWeight {
         return log_sum_exp(scratch).log_sum;
       };
       const double p = log_mixture([&](const auto& b) { return model.template log_transition<R>(t, x, b); });
-      return usable(p - log_mixture([&](const auto& b) { return proposal.template log_density<R>(model, t, x, b, y); }));
+      return usable(p -
+                    log_mixture([&](const auto& b) { return proposal.template log_density<R>(model, t, x, b, y); }));
     }
   }
 };
 
-/// Weight of a proposal x from parent k:  w = p(y | x) p(x | x^k) / (N g(k) g(x | x^k, y)); the division by N makes its mean the evidence.
-/// source  IMH-OPT (23)
+/// Weight of a proposal x from parent k:  w = p(y | x) p(x | x^k) / (N g(k) g(x | x^k, y)); the division by N makes its
+/// mean the evidence. source  IMH-OPT (23)
 struct PairWeight {
   template <class R, Model M, class G>
-  static double log_ratio(const M& model, const G& proposal, Step t, const StateOf<M, R>& x, std::size_t k, const Particles<R>& parents, Rows<R> y, std::span<double>) {
+  static double log_ratio(const M& model, const G& proposal, Step t, const StateOf<M, R>& x, std::size_t k,
+                          const Particles<R>& parents, Rows<R> y, std::span<double>) {
     auto before = blank_state<R>(model);
     parents.read(k, before);
     return log_importance<R>(model, proposal, t, x, before, y);
   }
 };
 
-/// The filter without resampling: proposals from the mixture of the parents, a Metropolis chain over them, its last N states.
+/// The filter without resampling: proposals from the mixture of the parents, a Metropolis chain over them, its last N
+/// states.
 ///
 ///   parents k ~ g(k), proposals x ~ g(. | x^k_{t-1}, y), Q + P N_b of them; weights by `Weight`
-///   estimates sum w f(x) / sum w over all proposals; evidence = mean w; the chains' last N states are the unweighted set
+///   estimates sum w f(x) / sum w over all proposals; evidence = mean w; the chains' last N states are the unweighted
+///   set
 ///
 /// shape   N kept, Q >= N drawn, P chains
 /// cost    O(Q + P N_b) a step (times N for MixtureWeight with g not p); memory about (2 D + 3) 8 (Q + P N_b) bytes
@@ -88,10 +92,12 @@ class MetropolisFilter final : public Filter {
       systematic(weights_, draws(t), starts);
     }
     // the linear weights have served: their place takes the log uniforms
-    draws(t).for_each(Purpose::kAccept, 0, weights_.size(), [&](std::size_t j, auto& draw) { weights_[j] = std::log(draw.uniform()); });
+    draws(t).for_each(Purpose::kAccept, 0, weights_.size(),
+                      [&](std::size_t j, auto& draw) { weights_[j] = std::log(draw.uniform()); });
     const ChainReport chain = run_chains(layout_, log_weights_, weights_, starts, picks_);
     set_.gather(proposals_, picks_);
-    report.acceptance = chain.offered == 0 ? kNaN : static_cast<double>(chain.accepted) / static_cast<double>(chain.offered);
+    report.acceptance =
+        chain.offered == 0 ? kNaN : static_cast<double>(chain.accepted) / static_cast<double>(chain.offered);
     report.burn_in = layout_.burn_in;
     report.selected = true;
   }
@@ -135,7 +141,8 @@ class MetropolisFilter final : public Filter {
         const auto x = proposal_.template propose<R>(model_, t, before, y, draw);
         if (j < from) continue;  // drawn again only to keep the block's stream in step
         proposals_.write(j, x);
-        log_weights_[j] = Weight::template log_ratio<R>(model_, proposal_, t, x, k, set_, y, scratch) - log_parent + log_likelihood<R>(model_, t, x, y);
+        log_weights_[j] = Weight::template log_ratio<R>(model_, proposal_, t, x, k, set_, y, scratch) - log_parent +
+                          log_likelihood<R>(model_, t, x, y);
       }
     }
   }
@@ -151,9 +158,12 @@ class MetropolisFilter final : public Filter {
       return {k, std::log(lookahead_->weights()[k] / lookahead_->total() * static_cast<double>(n))};
     }
     switch (options_.parents) {
-      case Parents::kPermuted: return {permutation(j % n), 0};
-      case Parents::kSweep: return {j % n, 0};
-      case Parents::kIid: break;
+      case Parents::kPermuted:
+        return {permutation(j % n), 0};
+      case Parents::kSweep:
+        return {j % n, 0};
+      case Parents::kIid:
+        break;
     }
     return {draw.index(n), 0};
   }
@@ -173,7 +183,8 @@ class MetropolisFilter final : public Filter {
       parent_weights_[i] = log_likelihood<R>(model_, t, model_.template next<R>(t, before, still), y);
     }
     const LogSum sum = log_sum_exp(parent_weights_);
-    for (double& w : parent_weights_) w = 0.5 / static_cast<double>(n) + (std::isfinite(sum.largest) ? 0.5 * std::exp(w - sum.log_sum) : 0);
+    for (double& w : parent_weights_)
+      w = 0.5 / static_cast<double>(n) + (std::isfinite(sum.largest) ? 0.5 * std::exp(w - sum.log_sum) : 0);
     lookahead_.emplace(parent_weights_);
   }
 
@@ -194,7 +205,8 @@ class MetropolisFilter final : public Filter {
     weighted_ = &proposals_;
     total_ = judgement.total;
     report.ess = judgement.ess;
-    report.log_evidence = report.collapsed ? -kInfinity : judgement.log_sum - std::log(static_cast<double>(proposals_.size()));
+    report.log_evidence =
+        report.collapsed ? -kInfinity : judgement.log_sum - std::log(static_cast<double>(proposals_.size()));
     return report;
   }
 
@@ -224,14 +236,18 @@ class MetropolisFilter final : public Filter {
 
 /// The IMH filter with the mixture weights of IMH-HW (12).
 template <class R = double, class G = Prior, Model M>
-std::unique_ptr<Filter> make_imh(M model, std::size_t particles, std::uint64_t seed, const ChainOptions& options = {}, OnCollapse on_collapse = OnCollapse::kStop) {
-  return std::make_unique<MetropolisFilter<M, R, G, MixtureWeight>>(std::move(model), particles, seed, options, on_collapse);
+std::unique_ptr<Filter> make_imh(M model, std::size_t particles, std::uint64_t seed, const ChainOptions& options = {},
+                                 OnCollapse on_collapse = OnCollapse::kStop) {
+  return std::make_unique<MetropolisFilter<M, R, G, MixtureWeight>>(std::move(model), particles, seed, options,
+                                                                    on_collapse);
 }
 
 /// The auxiliary-variable IMH filter: pairs (x, k), any proposal, no sum over parents.
 template <class R = double, class G = Prior, Model M>
-std::unique_ptr<Filter> make_auxiliary(M model, std::size_t particles, std::uint64_t seed, const ChainOptions& options = {}, OnCollapse on_collapse = OnCollapse::kStop) {
-  return std::make_unique<MetropolisFilter<M, R, G, PairWeight>>(std::move(model), particles, seed, options, on_collapse);
+std::unique_ptr<Filter> make_auxiliary(M model, std::size_t particles, std::uint64_t seed,
+                                       const ChainOptions& options = {}, OnCollapse on_collapse = OnCollapse::kStop) {
+  return std::make_unique<MetropolisFilter<M, R, G, PairWeight>>(std::move(model), particles, seed, options,
+                                                                 on_collapse);
 }
 
 }  // namespace mote

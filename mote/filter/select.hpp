@@ -10,7 +10,8 @@
 
 namespace mote {
 
-/// The weighted cloud of an importance filter. Carried log weights have log-sum-exp 0 (in the mean, with w / a selection).
+/// The weighted cloud of an importance filter. Carried log weights have log-sum-exp 0 (in the mean, with w / a
+/// selection).
 template <class R>
 struct Cloud {
   Particles<R> x;
@@ -33,7 +34,8 @@ struct Cloud {
 /// shape   weights: (n,) linear, of the same particles, overwritten; not all zero
 /// source  IMH-OPT II-B
 template <class R>
-void resample(Cloud<R>& cloud, std::size_t first, std::size_t n, double log_mass, const SelectionOptions& options, const Draws& draws) {
+void resample(Cloud<R>& cloud, std::size_t first, std::size_t n, double log_mass, const SelectionOptions& options,
+              const Draws& draws) {
   const std::span<double> weights(cloud.weights.data() + first, n);
   const bool plain = options.exponent == 1;
   const double total = ordered_sum(n, [&](std::size_t i) { return weights[i]; });
@@ -45,7 +47,8 @@ void resample(Cloud<R>& cloud, std::size_t first, std::size_t n, double log_mass
   if (!plain) {
     const double selection = ordered_sum(n, [&](std::size_t i) { return weights[i]; });
     for (double& w : weights) w = std::pow(w, 1 / options.exponent - 1);  // w / a of the particle, up to the totals
-    for (std::size_t j = 0; j < n; ++j) cloud.log_weights[first + j] = spread + std::log(weights[ancestors[j]] * selection / total);
+    for (std::size_t j = 0; j < n; ++j)
+      cloud.log_weights[first + j] = spread + std::log(weights[ancestors[j]] * selection / total);
   } else {
     std::fill_n(cloud.log_weights.begin() + static_cast<std::ptrdiff_t>(first), n, spread);
   }
@@ -91,14 +94,17 @@ class GroupSelector final : public Selector<R> {
     const Ring ring(n, groups_.groups);
     const Inbox<R> inbox = send(cloud.x, cloud.log_weights, ring, groups_);
     bool any = false;
-    for (std::size_t k = 0; k < ring.groups(); ++k) any = select_group(cloud, ring.first(k), ring.size(k), inbox, k, draws) || any;
+    for (std::size_t k = 0; k < ring.groups(); ++k)
+      any = select_group(cloud, ring.first(k), ring.size(k), inbox, k, draws) || any;
     if (!groups_.carry_group_weights && any) reset(cloud, ring);
     return any;
   }
 
  private:
-  bool select_group(Cloud<R>& cloud, std::size_t first, std::size_t n, const Inbox<R>& inbox, std::size_t k, const Draws& draws) {
-    if (groups_.exchange == Exchange::kAppend && groups_.groups > 1) return select_appended(cloud, first, n, inbox, k, draws);
+  bool select_group(Cloud<R>& cloud, std::size_t first, std::size_t n, const Inbox<R>& inbox, std::size_t k,
+                    const Draws& draws) {
+    if (groups_.exchange == Exchange::kAppend && groups_.groups > 1)
+      return select_appended(cloud, first, n, inbox, k, draws);
     const std::span<double> logs(cloud.log_weights.data() + first, n);
     const std::span<double> weights(cloud.weights.data() + first, n);
     const LogSum mass = log_sum_exp(logs);
@@ -110,15 +116,18 @@ class GroupSelector final : public Selector<R> {
   }
 
   /// Own particles and received ones compete for the group's n places.
-  bool select_appended(Cloud<R>& cloud, std::size_t first, std::size_t n, const Inbox<R>& inbox, std::size_t k, const Draws& draws) {
+  bool select_appended(Cloud<R>& cloud, std::size_t first, std::size_t n, const Inbox<R>& inbox, std::size_t k,
+                       const Draws& draws) {
     const std::size_t m = inbox.count;
     Cloud<R> both(cloud.x.dimensions(), n + m);
     for (std::size_t d = 0; d < cloud.x.dimensions(); ++d) {
       std::copy_n(cloud.x.component(d).begin() + static_cast<std::ptrdiff_t>(first), n, both.x.component(d).begin());
-      std::copy_n(inbox.x.component(d).begin() + static_cast<std::ptrdiff_t>(k * m), m, both.x.component(d).begin() + static_cast<std::ptrdiff_t>(n));
+      std::copy_n(inbox.x.component(d).begin() + static_cast<std::ptrdiff_t>(k * m), m,
+                  both.x.component(d).begin() + static_cast<std::ptrdiff_t>(n));
     }
     std::copy_n(cloud.log_weights.begin() + static_cast<std::ptrdiff_t>(first), n, both.log_weights.begin());
-    std::copy_n(inbox.log_weights.begin() + static_cast<std::ptrdiff_t>(k * m), m, both.log_weights.begin() + static_cast<std::ptrdiff_t>(n));
+    std::copy_n(inbox.log_weights.begin() + static_cast<std::ptrdiff_t>(k * m), m,
+                both.log_weights.begin() + static_cast<std::ptrdiff_t>(n));
     const LogSum mass = log_sum_exp(both.log_weights);
     if (!std::isfinite(mass.largest)) return false;
     exponentiate(both.log_weights, mass.largest, both.weights);
@@ -126,7 +135,8 @@ class GroupSelector final : public Selector<R> {
     options_.scheme->resample(both.weights, stream(draws, k), ancestors);
     for (std::size_t d = 0; d < cloud.x.dimensions(); ++d)
       for (std::size_t j = 0; j < n; ++j) cloud.x.component(d)[first + j] = both.x.component(d)[ancestors[j]];
-    std::fill_n(cloud.log_weights.begin() + static_cast<std::ptrdiff_t>(first), n, mass.log_sum - std::log(static_cast<double>(n)));
+    std::fill_n(cloud.log_weights.begin() + static_cast<std::ptrdiff_t>(first), n,
+                mass.log_sum - std::log(static_cast<double>(n)));
     return true;
   }
 

@@ -35,7 +35,8 @@ struct Judgement {
   bool collapsed;  ///< all weights zero
 };
 
-/// Normalises log weights (log-sum-exp becomes 0) and writes linear weights with maximum 1; on collapse nothing changes.
+/// Normalises log weights (log-sum-exp becomes 0) and writes linear weights with maximum 1; on collapse nothing
+/// changes.
 ///
 /// cost    O(N), one exponential a particle
 inline Judgement normalise(std::span<double> log_weights, std::span<double> weights) {

@@ -1,9 +1,9 @@
 #include "mote/report/run_page.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 namespace mote::report {
 namespace {
@@ -13,7 +13,8 @@ RunRecord record_of(std::vector<Quantity> states) {
   record.model = "toy";
   record.engine = "reference";
   record.states = std::move(states);
-  for (Step t = 1; t <= 3; ++t) record.rows.push_back({t, std::vector<Moments>(record.states.size(), {3.0 * (t % 2 == 0 ? -1 : 1), 0.5}), {}, {}});
+  for (Step t = 1; t <= 3; ++t)
+    record.rows.push_back({t, std::vector<Moments>(record.states.size(), {3.0 * (t % 2 == 0 ? -1 : 1), 0.5}), {}, {}});
   return record;
 }
 
@@ -26,7 +27,8 @@ std::vector<std::string> titles(const Page& page) {
 TEST(RunPage, DrawsATrackForStatesInThePlane) {
   const RunRecord record = record_of({{"x", "m"}, {"y", "m"}});
   const Page page = run_page(record, summarise(record, nullptr), {}, nullptr, "data.csv", "mote run");
-  EXPECT_EQ(titles(page), (std::vector<std::string>{"Track", "x", "y", "Effective sample size", "Log evidence of each step"}));
+  EXPECT_EQ(titles(page),
+            (std::vector<std::string>{"Track", "x", "y", "Effective sample size", "Log evidence of each step"}));
   EXPECT_TRUE(page.charts.front().equal_axes);
 }
 

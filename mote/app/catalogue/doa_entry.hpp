@@ -6,7 +6,13 @@ namespace mote {
 
 /// `doa`: its frame is as long as the data has columns doa1, doa2, ...
 inline CatalogueEntry doa_entry() {
-  CatalogueEntry made{"doa", "direction of arrival of one source from frames of noisy directions", parameters_of<Doa>(), proposals_of<Doa>(), {}, {}, nullptr};
+  CatalogueEntry made{"doa",
+                      "direction of arrival of one source from frames of noisy directions",
+                      parameters_of<Doa>(),
+                      proposals_of<Doa>(),
+                      {},
+                      {},
+                      nullptr};
   made.make = [](const Settings& settings, std::span<const std::string> header) {
     Doa model{parameters_from<Doa>(settings)};
     settings.finish("doa", names_of(parameters_of<Doa>()));

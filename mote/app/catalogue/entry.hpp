@@ -14,7 +14,9 @@ class CatalogueModelOf final : public CatalogueModel {
   std::vector<Quantity> states() const override { return model_.states(); }
   std::vector<Column> columns() const override { return model_.columns(); }
   std::vector<ValueSource> sources() const override { return value_sources(model_); }
-  std::unique_ptr<Filter> reference_filter(const Plan& plan, const std::string& where) const override { return make_reference_filter(model_, plan, where); }
+  std::unique_ptr<Filter> reference_filter(const Plan& plan, const std::string& where) const override {
+    return make_reference_filter(model_, plan, where);
+  }
 
   Simulation simulate(Step steps, std::uint64_t seed) const override {
     Simulation all;
@@ -42,7 +44,9 @@ class CatalogueModelOf final : public CatalogueModel {
 /// The names and meanings of a model's proposals.
 template <class M>
 std::vector<Named> proposals_of() {
-  return []<class... G>(const std::tuple<G...>*) { return std::vector<Named>{{std::string(G::kName), std::string(G::kMeaning)}...}; }(static_cast<const typename M::Proposals*>(nullptr));
+  return []<class... G>(const std::tuple<G...>*) {
+    return std::vector<Named>{{std::string(G::kName), std::string(G::kMeaning)}...};
+  }(static_cast<const typename M::Proposals*>(nullptr));
 }
 
 /// A model's parameters with their defaults.
@@ -62,7 +66,8 @@ std::vector<ParameterInfo> parameters_of() {
 template <class M>
 typename M::Parameters parameters_from(const Settings& settings) {
   typename M::Parameters parameters{};
-  for (const auto& p : M::kParameters) parameters.*(p.value) = settings.number(std::string(p.name), parameters.*(p.value), p.range);
+  for (const auto& p : M::kParameters)
+    parameters.*(p.value) = settings.number(std::string(p.name), parameters.*(p.value), p.range);
   return parameters;
 }
 

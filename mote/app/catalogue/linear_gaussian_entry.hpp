@@ -9,12 +9,23 @@ namespace mote {
 
 /// `linear-gaussian`: matrices from the TOML or JSON file given by --set file=...
 inline CatalogueEntry linear_gaussian_entry() {
-  CatalogueEntry made{"linear-gaussian", "x' = F x + N(0, Q), y = H x + N(0, R), any size; exactly solvable", {}, proposals_of<LinearGaussian>(), {}, {}, nullptr};
-  made.parameters.push_back({"file", "", "", "a TOML or JSON file", "matrices F, Q, H, R, vector mean and matrix covariance of x_0; optional lists states and observations of names"});
+  CatalogueEntry made{"linear-gaussian",
+                      "x' = F x + N(0, Q), y = H x + N(0, R), any size; exactly solvable",
+                      {},
+                      proposals_of<LinearGaussian>(),
+                      {},
+                      {},
+                      nullptr};
+  made.parameters.push_back({"file", "", "", "a TOML or JSON file",
+                             "matrices F, Q, H, R, vector mean and matrix covariance of x_0; optional lists states and "
+                             "observations of names"});
   made.make = [](const Settings& settings, std::span<const std::string>) {
     const auto file = settings.text("file");
     settings.finish("linear-gaussian", "file");
-    if (!file) throw Refusal(ExitCode::kWrongUse, {settings.where(), "--set file", "the TOML or JSON file with F, Q, H, R, mean and covariance", "nothing", "Pass --set file=model.toml."});
+    if (!file)
+      throw Refusal(ExitCode::kWrongUse,
+                    {settings.where(), "--set file", "the TOML or JSON file with F, Q, H, R, mean and covariance",
+                     "nothing", "Pass --set file=model.toml."});
     try {
       return wrapped(LinearGaussian(read_linear_gaussian(*file)));
     } catch (const std::invalid_argument& wrong) {

@@ -1,13 +1,13 @@
 #include "mote/app/commands/command.hpp"
 
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <new>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "mote/app/files/text.hpp"
 
@@ -27,7 +27,10 @@ std::string shell_line(int count, char** words) {
   std::string line = "mote";
   for (int i = 1; i < count; ++i) {
     const std::string word = words[i];
-    const bool plain = !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=./,:+%@") == std::string::npos;
+    const bool plain =
+        !word.empty() &&
+        word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=./,:+%@") ==
+            std::string::npos;
     line += ' ';
     if (plain) {
       line += word;
@@ -93,7 +96,8 @@ int refused(const std::string& sentence, ExitCode code) {
   return static_cast<int>(code);
 }
 
-int dispatched(const CLI::App& program, const std::vector<std::unique_ptr<Bound>>& commands, const std::string& command_line) {
+int dispatched(const CLI::App& program, const std::vector<std::unique_ptr<Bound>>& commands,
+               const std::string& command_line) {
   for (const auto& bound : commands) {
     if (!bound->app->parsed()) continue;
     try {
@@ -101,7 +105,8 @@ int dispatched(const CLI::App& program, const std::vector<std::unique_ptr<Bound>
     } catch (const Refusal& refusal) {
       return refused(refusal.what(), refusal.code());
     } catch (const std::bad_alloc&) {
-      return refused(fmt::format("mote {}: the memory did not suffice. Pass fewer --particles.", bound->command.name), ExitCode::kWrongUse);
+      return refused(fmt::format("mote {}: the memory did not suffice. Pass fewer --particles.", bound->command.name),
+                     ExitCode::kWrongUse);
     } catch (const std::exception& error) {
       return refused(fmt::format("mote {}: {}", bound->command.name, error.what()), static_cast<ExitCode>(1));
     }
@@ -128,7 +133,11 @@ long long Arguments::integer(const std::string& name, long long least, long long
   const std::string given = text(name);
   const auto value = integer_in(given);
   if (!value || *value < least || *value > most)
-    throw Refusal(ExitCode::kWrongUse, {where_, name, fmt::format("an integer from {} to {}", least, most), given.empty() ? "nothing" : given, fallbacks_.contains(name) && !fallbacks_.at(name).empty() ? fmt::format("Pass {} {}.", name, fallbacks_.at(name)) : ""});
+    throw Refusal(ExitCode::kWrongUse, {where_, name, fmt::format("an integer from {} to {}", least, most),
+                                        given.empty() ? "nothing" : given,
+                                        fallbacks_.contains(name) && !fallbacks_.at(name).empty()
+                                            ? fmt::format("Pass {} {}.", name, fallbacks_.at(name))
+                                            : ""});
   return *value;
 }
 
@@ -136,14 +145,17 @@ double Arguments::number(const std::string& name, double least, double most) con
   const std::string given = text(name);
   const auto value = number_in(given);
   if (!value || !(*value >= least && *value <= most))
-    throw Refusal(ExitCode::kWrongUse, {where_, name, fmt::format("a number from {} to {}", least, most), given, fmt::format("Pass {} {}.", name, fallbacks_.at(name))});
+    throw Refusal(ExitCode::kWrongUse, {where_, name, fmt::format("a number from {} to {}", least, most), given,
+                                        fmt::format("Pass {} {}.", name, fallbacks_.at(name))});
   return *value;
 }
 
 std::size_t Arguments::choice(const std::string& name, const std::vector<std::string>& choices) const {
   const std::string given = text(name);
   const auto found = std::find(choices.begin(), choices.end(), given);
-  if (found == choices.end()) throw Refusal(ExitCode::kWrongUse, {where_, name, fmt::format("one of {}", fmt::join(choices, ", ")), "\"" + given + "\"", fmt::format("Pass {} {}.", name, choices.front())});
+  if (found == choices.end())
+    throw Refusal(ExitCode::kWrongUse, {where_, name, fmt::format("one of {}", fmt::join(choices, ", ")),
+                                        "\"" + given + "\"", fmt::format("Pass {} {}.", name, choices.front())});
   return static_cast<std::size_t>(found - choices.begin());
 }
 

@@ -29,8 +29,12 @@ struct PositionalSpec {
 /// The options given on one command line.
 class Arguments {
  public:
-  Arguments(std::string where, std::string command_line, std::map<std::string, std::vector<std::string>> given, std::map<std::string, std::string> fallbacks)
-      : where_(std::move(where)), command_line_(std::move(command_line)), given_(std::move(given)), fallbacks_(std::move(fallbacks)) {}
+  Arguments(std::string where, std::string command_line, std::map<std::string, std::vector<std::string>> given,
+            std::map<std::string, std::string> fallbacks)
+      : where_(std::move(where)),
+        command_line_(std::move(command_line)),
+        given_(std::move(given)),
+        fallbacks_(std::move(fallbacks)) {}
 
   /// "mote run": what opens a refusal.
   const std::string& where() const { return where_; }

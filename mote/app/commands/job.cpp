@@ -1,9 +1,9 @@
 #include "mote/app/commands/job.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <fstream>
+
+#include <fmt/format.h>
 
 #include "mote/app/files/recording_file.hpp"
 #include "mote/base/refusal.hpp"
@@ -27,17 +27,23 @@ void check_memory(const Plan& plan, std::size_t dimensions, const std::string& w
   const double need = bytes_needed(plan, dimensions);
   const double have = available_memory();
   if (need <= have) return;
-  throw Refusal(ExitCode::kWrongUse, {where, "--particles", fmt::format("particles that fit into the {:.1f} GB of memory there are", have / 1e9), fmt::format("{}, which need {:.1f} GB", plan.particles, need / 1e9), "Pass fewer --particles."});
+  throw Refusal(
+      ExitCode::kWrongUse,
+      {where, "--particles", fmt::format("particles that fit into the {:.1f} GB of memory there are", have / 1e9),
+       fmt::format("{}, which need {:.1f} GB", plan.particles, need / 1e9), "Pass fewer --particles."});
 }
 
 std::string note_of_unused(const Table& table, const std::vector<std::string>& read) {
   const auto unused = unused_columns(table, read);
-  return unused.empty() ? "" : fmt::format("{}: note: nothing reads the column{} {}.", table.path, unused.size() > 1 ? "s" : "", fmt::join(unused, ", "));
+  return unused.empty() ? ""
+                        : fmt::format("{}: note: nothing reads the column{} {}.", table.path,
+                                      unused.size() > 1 ? "s" : "", fmt::join(unused, ", "));
 }
 
 }  // namespace
 
-Job load_job(const std::string& model, const std::string& data_path, const std::string& truth_path, const std::vector<std::string>& settings, const std::string& where) {
+Job load_job(const std::string& model, const std::string& data_path, const std::string& truth_path,
+             const std::vector<std::string>& settings, const std::string& where) {
   Job job;
   job.model_name = model;
   job.data_path = data_path;
@@ -76,7 +82,8 @@ RunRecord run_job(const Job& job, const Plan& plan, const RunRequest& request, c
 }
 
 std::string report_for(const Job& job, const RunRecord& record, const Summary& summary) {
-  return report::html(report::run_page(record, summary, job.recording, job.truth ? &*job.truth : nullptr, job.data_path, job.command));
+  return report::html(
+      report::run_page(record, summary, job.recording, job.truth ? &*job.truth : nullptr, job.data_path, job.command));
 }
 
 }  // namespace mote

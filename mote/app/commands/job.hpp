@@ -19,7 +19,8 @@ struct Job {
 };
 
 /// Reads a job's files; `truth_path` may be empty.
-Job load_job(const std::string& model, const std::string& data_path, const std::string& truth_path, const std::vector<std::string>& settings, const std::string& where);
+Job load_job(const std::string& model, const std::string& data_path, const std::string& truth_path,
+             const std::vector<std::string>& settings, const std::string& where);
 
 /// A request for the job's states and the functions asked for.
 RunRequest request_for(const Job& job, const std::vector<std::string>& estimates, const std::string& where);

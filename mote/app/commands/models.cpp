@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-
 #include <nlohmann/json.hpp>
 
 #include "mote/app/catalogue/catalogue.hpp"
@@ -10,8 +9,11 @@ namespace {
 
 nlohmann::json as_json(const CatalogueEntry& entry) {
   nlohmann::json json{{"name", entry.name}, {"meaning", entry.meaning}, {"columns", entry.example_columns}};
-  for (const Quantity& s : entry.example_states) json["states"].push_back({{"name", s.name}, {"unit", s.unit}, {"angle", s.angle}});
-  for (const ParameterInfo& p : entry.parameters) json["parameters"].push_back({{"name", p.name}, {"default", p.fallback}, {"unit", p.unit}, {"allowed", p.allowed}, {"meaning", p.meaning}});
+  for (const Quantity& s : entry.example_states)
+    json["states"].push_back({{"name", s.name}, {"unit", s.unit}, {"angle", s.angle}});
+  for (const ParameterInfo& p : entry.parameters)
+    json["parameters"].push_back(
+        {{"name", p.name}, {"default", p.fallback}, {"unit", p.unit}, {"allowed", p.allowed}, {"meaning", p.meaning}});
   for (const Named& g : entry.proposals) json["proposals"].push_back({{"name", g.name}, {"meaning", g.meaning}});
   return json;
 }
@@ -20,7 +22,9 @@ void print_entry(const CatalogueEntry& entry) {
   fmt::print("{}: {}\n\nstates\n", entry.name, entry.meaning);
   for (const Quantity& s : entry.example_states) fmt::print("  {:<18}{}\n", s.name, s.unit);
   fmt::print("\ndata columns\n  t,{}\n\nparameters (--set name=value)\n", fmt::join(entry.example_columns, ","));
-  for (const ParameterInfo& p : entry.parameters) fmt::print("  {:<12}[{}{}{}]  {} ({})\n", p.name, p.fallback, p.unit.empty() ? "" : " ", p.unit, p.meaning, p.allowed);
+  for (const ParameterInfo& p : entry.parameters)
+    fmt::print("  {:<12}[{}{}{}]  {} ({})\n", p.name, p.fallback, p.unit.empty() ? "" : " ", p.unit, p.meaning,
+               p.allowed);
   fmt::print("\nproposals (--proposal NAME)\n");
   for (const Named& g : entry.proposals) fmt::print("  {:<18}{}\n", g.name, g.meaning);
 }
@@ -50,7 +54,12 @@ ExitCode run_models(const Arguments& arguments) {
 }  // namespace
 
 Command models_command() {
-  return {"models", "List the models, or show one with its parameters", {{"NAME", "model to show", false}}, {{"--json", "", "", "print as JSON", "Output"}}, run_models, ""};
+  return {"models",
+          "List the models, or show one with its parameters",
+          {{"NAME", "model to show", false}},
+          {{"--json", "", "", "print as JSON", "Output"}},
+          run_models,
+          ""};
 }
 
 }  // namespace mote

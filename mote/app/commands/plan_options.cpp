@@ -20,11 +20,20 @@ std::vector<std::string> scheme_names() {
 
 void refuse_what_is_not_there(const Arguments& arguments) {
   for (const std::string name : {"--checkpoint", "--checkpoint-every", "--budget", "--proposers", "--weighers"})
-    if (arguments.given(name)) throw Refusal(ExitCode::kWrongUse, fmt::format("{}: {}: this version of mote does not have it yet. Leave it out.", arguments.where(), name));
+    if (arguments.given(name))
+      throw Refusal(ExitCode::kWrongUse, fmt::format("{}: {}: this version of mote does not have it yet. Leave it out.",
+                                                     arguments.where(), name));
   const std::size_t engine = arguments.choice("--engine", kEngines);
-  if (engine != 0) throw Refusal(ExitCode::kWrongUse, fmt::format("{}: --engine {}: this version of mote does not have that engine yet. Pass --engine reference.", arguments.where(), kEngines[engine]));
+  if (engine != 0)
+    throw Refusal(
+        ExitCode::kWrongUse,
+        fmt::format("{}: --engine {}: this version of mote does not have that engine yet. Pass --engine reference.",
+                    arguments.where(), kEngines[engine]));
   const std::size_t filter = arguments.choice("--filter", kFilters);
-  if (filter >= kFiltersNow) throw Refusal(ExitCode::kWrongUse, fmt::format("{}: --filter {}: this version of mote does not have that filter yet. Pass --filter sisr, imh, auxiliary or distributed.", arguments.where(), kFilters[filter]));
+  if (filter >= kFiltersNow)
+    throw Refusal(ExitCode::kWrongUse, fmt::format("{}: --filter {}: this version of mote does not have that filter "
+                                                   "yet. Pass --filter sisr, imh, auxiliary or distributed.",
+                                                   arguments.where(), kFilters[filter]));
 }
 
 ChainOptions chain_from(const Arguments& arguments, FilterKind filter) {
@@ -41,13 +50,17 @@ ChainOptions chain_from(const Arguments& arguments, FilterKind filter) {
   }
   if (arguments.given("--improved")) {
     if (filter != FilterKind::kImh && filter != FilterKind::kAuxiliary)
-      throw Refusal(ExitCode::kWrongUse, {arguments.where(), "--improved", "--filter imh or auxiliary, whose chains it improves", "--filter " + std::string(name_of(filter)), "Pass --filter imh --improved."});
+      throw Refusal(ExitCode::kWrongUse,
+                    {arguments.where(), "--improved", "--filter imh or auxiliary, whose chains it improves",
+                     "--filter " + std::string(name_of(filter)), "Pass --filter imh --improved."});
     if (!arguments.given("--chains")) chain.chains = 8;
     if (!arguments.given("--parents")) chain.parents = Parents::kPermuted;
     if (!arguments.given("--chain-start")) chain.start = ChainStart::kWeighted;
   }
   if (chain.parent_weights == ParentWeights::kLookahead && filter != FilterKind::kAuxiliary)
-    throw Refusal(ExitCode::kWrongUse, {arguments.where(), "--parent-weights lookahead", "--filter auxiliary, which weighs by pairs", "--filter " + std::string(name_of(filter)), "Pass --filter auxiliary."});
+    throw Refusal(ExitCode::kWrongUse,
+                  {arguments.where(), "--parent-weights lookahead", "--filter auxiliary, which weighs by pairs",
+                   "--filter " + std::string(name_of(filter)), "Pass --filter auxiliary."});
   return chain;
 }
 
@@ -64,21 +77,26 @@ std::vector<OptionSpec> plan_options() {
       {"--seed", "S", "1", "seed, an integer of at least 0; same seed, same result", filter},
       {"--resampler", "NAME", "systematic", fmt::format("{}", fmt::join(scheme_names(), ", ")), filter},
       {"--ess-threshold", "X", "1", "resample when ESS <= X N, X from 0 to 1; 1 = every step", filter},
-      {"--selection-exponent", "A", "1", "resample by weights to the power A, 0 < A <= 1; survivors keep w / a", filter},
+      {"--selection-exponent", "A", "1", "resample by weights to the power A, 0 < A <= 1; survivors keep w / a",
+       filter},
       {"--proposal", "NAME", "prior", "proposal density of the model (see mote models NAME)", filter},
-      {"--on-collapse", "WHAT", "stop", "when all weights are zero: stop, keep the particles, or reset to the prior", filter},
+      {"--on-collapse", "WHAT", "stop", "when all weights are zero: stop, keep the particles, or reset to the prior",
+       filter},
       {"--draws", "Q", "", "proposals that chains may keep, at least N [N]", chain},
-      {"--burn-in", "NB", "0", "proposals before a chain is kept, per chain; auto = from mean and largest weight", chain},
+      {"--burn-in", "NB", "0", "proposals before a chain is kept, per chain; auto = from mean and largest weight",
+       chain},
       {"--chains", "P", "1", "chains, from 1 to N", chain},
       {"--parents", "HOW", "iid", "how parents are chosen: iid, permuted or sweep", chain},
       {"--chain-start", "HOW", "first", "first proposal, or weighted = drawn in proportion to weight", chain},
-      {"--parent-weights", "HOW", "uniform", "auxiliary: g(k) uniform, or lookahead = half by the likelihood of the moved parent", chain},
+      {"--parent-weights", "HOW", "uniform",
+       "auxiliary: g(k) uniform, or lookahead = half by the likelihood of the moved parent", chain},
       {"--improved", "", "", "short for --chains 8 --parents permuted --chain-start weighted", chain},
       {"--groups", "K", "1", "groups of particles, from 1 to N", groups},
       {"--group-resampling", "WHERE", "local", "local = inside each group, global = over all particles", groups},
       {"--exchange", "HOW", "none", "none, append, replace or swap the heaviest particles with the next group", groups},
       {"--exchange-count", "M", "1", "particles that each group sends", groups},
-      {"--group-weights", "HOW", "carried", "carried = properly weighted; reset = every group counts alike after resampling (PPF)", groups},
+      {"--group-weights", "HOW", "carried",
+       "carried = properly weighted; reset = every group counts alike after resampling (PPF)", groups},
       {"--engine", "NAME", "reference", "reference", engine},
       {"--threads", "K", "", "threads; results never depend on it; the reference engine uses one [all cores]", engine},
       {"--precision", "TYPE", "double", "float or double", engine},

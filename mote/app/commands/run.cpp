@@ -1,7 +1,7 @@
-#include <fmt/format.h>
-
 #include <chrono>
 #include <cmath>
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "mote/app/catalogue/catalogue.hpp"
@@ -17,21 +17,28 @@ namespace mote {
 namespace {
 
 void print_summary(const RunRecord& record, const Summary& s) {
-  fmt::print("{}  {}  N = {}  seed {}  {} engine\n", record.model, name_of(record.plan.filter), record.plan.particles, record.plan.seed, record.engine);
-  fmt::print("{} steps estimated, {} predicted, {:.3g} s, {:.3g} ns per particle and step\n", record.rows.size(), record.predicted_steps, record.wall_seconds, s.ns_per_particle_step);
+  fmt::print("{}  {}  N = {}  seed {}  {} engine\n", record.model, name_of(record.plan.filter), record.plan.particles,
+             record.plan.seed, record.engine);
+  fmt::print("{} steps estimated, {} predicted, {:.3g} s, {:.3g} ns per particle and step\n", record.rows.size(),
+             record.predicted_steps, record.wall_seconds, s.ns_per_particle_step);
   fmt::print("log evidence {:.6g}, mean ESS {:.4g}", s.log_evidence, s.mean_ess);
   if (!std::isnan(s.acceptance)) fmt::print(", acceptance {:.3f}", s.acceptance);
   fmt::print("\n");
   if (s.collapses > 0) fmt::print("collapsed at {} steps\n", s.collapses);
   for (std::size_t d = 0; d < s.rmse.size(); ++d)
-    if (!std::isnan(s.rmse[d])) fmt::print("rmse {} {:.4g} {}\n", record.states[d].name, s.rmse[d], record.states[d].unit);
-  if (s.position_error) fmt::print("position error: mean {:.4g}, median {:.4g}, rmse {:.4g}\n", s.position_error->mean, s.position_error->median, s.position_error->rmse);
+    if (!std::isnan(s.rmse[d]))
+      fmt::print("rmse {} {:.4g} {}\n", record.states[d].name, s.rmse[d], record.states[d].unit);
+  if (s.position_error)
+    fmt::print("position error: mean {:.4g}, median {:.4g}, rmse {:.4g}\n", s.position_error->mean,
+               s.position_error->median, s.position_error->rmse);
 }
 
 ExitCode run_run(const Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   const Plan plan = plan_from(arguments);
-  Job job = load_job(arguments.text("MODEL"), arguments.required("--data", "a CSV file with the recording", "Pass --data obs.csv."), arguments.text("--truth"), arguments.list("--set"), arguments.where());
+  Job job = load_job(arguments.text("MODEL"),
+                     arguments.required("--data", "a CSV file with the recording", "Pass --data obs.csv."),
+                     arguments.text("--truth"), arguments.list("--set"), arguments.where());
   job.command = arguments.command_line();
   for (const std::string& note : job.notes) fmt::print(stderr, "{}\n", note);
   RunRequest request = request_for(job, arguments.list("--estimate"), arguments.where());
@@ -52,7 +59,8 @@ ExitCode run_run(const Arguments& arguments) {
     record = run_job(job, plan, request, arguments.where());
   }
   if (record.interrupted) {
-    fmt::print(stderr, "{}: interrupted after {} of {} steps; nothing was written.\n", arguments.where(), record.rows.size(), job.recording.steps.size());
+    fmt::print(stderr, "{}: interrupted after {} of {} steps; nothing was written.\n", arguments.where(),
+               record.rows.size(), job.recording.steps.size());
     return ExitCode::kInterrupted;
   }
   record.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -75,11 +83,19 @@ Command run_command() {
       {"--out", "FILE", "", "estimates as CSV", "Output"},
       {"--summary", "FILE", "", "figures of the run as JSON", "Output"},
       {"--report", "FILE", "", "report with plots, one HTML file", "Output"},
-      {"--estimate", "F", "", "also estimate F: mean(f), sd(f), median(f), q0.9(f), P(f>1.5); f a state or a function of the model; may be repeated", "Output", true},
+      {"--estimate", "F", "",
+       "also estimate F: mean(f), sd(f), median(f), q0.9(f), P(f>1.5); f a state or a function of the model; may be "
+       "repeated",
+       "Output", true},
       {"--dump-particles", "FILE", "", "weighted particles of every step as CSV", "Output"},
   };
   for (OptionSpec& option : plan_options()) options.push_back(std::move(option));
-  return {"run", "Filter a recording", {{"MODEL", "model of the catalogue (see mote models)"}}, std::move(options), run_run, "Exit codes: 0 done, 2 wrong use, 3 bad data, 4 collapsed, 5 outside tool, 6 cannot write, 130 interrupted."};
+  return {"run",
+          "Filter a recording",
+          {{"MODEL", "model of the catalogue (see mote models)"}},
+          std::move(options),
+          run_run,
+          "Exit codes: 0 done, 2 wrong use, 3 bad data, 4 collapsed, 5 outside tool, 6 cannot write, 130 interrupted."};
 }
 
 }  // namespace mote

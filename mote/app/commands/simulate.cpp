@@ -13,7 +13,8 @@ constexpr long long kMostColumns = 4096;
 /// The header that a model sizes itself by: for doa, as many columns as asked for.
 std::vector<std::string> asked_columns(const Arguments& arguments) {
   std::vector<std::string> header;
-  for (long long m = 1; m <= arguments.integer("--columns", 1, kMostColumns); ++m) header.push_back("doa" + std::to_string(m));
+  for (long long m = 1; m <= arguments.integer("--columns", 1, kMostColumns); ++m)
+    header.push_back("doa" + std::to_string(m));
   return header;
 }
 

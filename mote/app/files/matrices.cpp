@@ -1,11 +1,11 @@
 #include "mote/app/files/matrices.hpp"
 
-#include <fmt/format.h>
-#include <toml++/toml.h>
-
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <toml++/toml.h>
 
 #include "mote/app/files/text.hpp"
 #include "mote/base/refusal.hpp"
@@ -44,7 +44,8 @@ Json parsed(const std::string& path) {
     const toml::table table = toml::parse(text, path);
     return from_toml(table);
   } catch (const toml::parse_error& error) {
-    throw Refusal(ExitCode::kBadData, {fmt::format("{}:{}", path, error.source().begin.line), "", "TOML", std::string(error.description()), ""});
+    throw Refusal(ExitCode::kBadData, {fmt::format("{}:{}", path, error.source().begin.line), "", "TOML",
+                                       std::string(error.description()), ""});
   }
 }
 
@@ -56,11 +57,13 @@ class Reader {
   const Json& at(const std::string& key, const std::string& other = "") const {
     if (root_.contains(key)) return root_[key];
     if (!other.empty() && root_.contains(other)) return root_[other];
-    throw Refusal(ExitCode::kBadData, {path_, "\"" + key + "\"", "a key of that name", "none", "A linear-gaussian file has F, Q, H, R, mean and covariance."});
+    throw Refusal(ExitCode::kBadData, {path_, "\"" + key + "\"", "a key of that name", "none",
+                                       "A linear-gaussian file has F, Q, H, R, mean and covariance."});
   }
   Eigen::MatrixXd matrix(const Json& value, const std::string& key) const {
     if (value.is_number()) return Eigen::MatrixXd::Constant(1, 1, value.get<double>());
-    if (!value.is_array() || value.empty() || !value[0].is_array() || value[0].empty()) refuse(key, "a list of rows of numbers");
+    if (!value.is_array() || value.empty() || !value[0].is_array() || value[0].empty())
+      refuse(key, "a list of rows of numbers");
     Eigen::MatrixXd out(static_cast<Eigen::Index>(value.size()), static_cast<Eigen::Index>(value[0].size()));
     for (std::size_t i = 0; i < value.size(); ++i) {
       if (!value[i].is_array() || value[i].size() != value[0].size()) refuse(key, "rows of equal length");
@@ -92,7 +95,10 @@ class Reader {
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& key, const std::string& expected) const { throw Refusal(ExitCode::kBadData, {path_, "\"" + key + "\"", expected, "something else", "A matrix is written [[1, 0], [0, 1]]."}); }
+  [[noreturn]] void refuse(const std::string& key, const std::string& expected) const {
+    throw Refusal(ExitCode::kBadData,
+                  {path_, "\"" + key + "\"", expected, "something else", "A matrix is written [[1, 0], [0, 1]]."});
+  }
 
   std::string path_;
   Json root_;

@@ -1,14 +1,14 @@
 #include "mote/app/files/output.hpp"
 
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "mote/base/refusal.hpp"
 
@@ -44,7 +44,8 @@ Output::Output(std::string path) : path_(std::move(path)), target_(path_ == "-" 
   const bool exists = stat(target_.c_str(), &info) == 0;
   if (exists && access(target_.c_str(), W_OK) != 0) fail(errno);
   aside_ = fmt::format("{}.{}.part", target_, getpid());
-  const int descriptor = open(aside_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, exists ? info.st_mode & 07777U : 0666U);
+  const int descriptor =
+      open(aside_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, exists ? info.st_mode & 07777U : 0666U);
   if (descriptor < 0) {
     const int error = errno;
     aside_.clear();
@@ -88,7 +89,8 @@ Output* OutputSet::open(const std::string& path) {
   if (path.empty()) return nullptr;
   const std::string real = path == "-" ? path : followed(path);
   if (!written_in_place(real) && std::find(paths_.begin(), paths_.end(), real) != paths_.end())
-    throw Refusal(ExitCode::kWrongUse, {path, "", "every output in a file of its own", "the same file for two outputs", "Name another file."});
+    throw Refusal(ExitCode::kWrongUse, {path, "", "every output in a file of its own", "the same file for two outputs",
+                                        "Name another file."});
   paths_.push_back(real);
   outputs_.push_back(std::make_unique<Output>(path));
   return outputs_.back().get();

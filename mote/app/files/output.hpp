@@ -8,8 +8,8 @@
 
 namespace mote {
 
-/// One output file: written aside, moved to its name by commit(). Something that is no regular file (a pipe, a device) is
-/// written in place. "-" is standard output. Dropped without commit(), it leaves nothing.
+/// One output file: written aside, moved to its name by commit(). Something that is no regular file (a pipe, a device)
+/// is written in place. "-" is standard output. Dropped without commit(), it leaves nothing.
 ///
 /// error   Refusal (kCannotWrite) naming the path, on opening, writing (disk full) or moving
 class Output {

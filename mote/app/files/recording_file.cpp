@@ -1,9 +1,9 @@
 #include "mote/app/files/recording_file.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "mote/base/refusal.hpp"
 
@@ -15,17 +15,22 @@ constexpr Step kLongestGap = 10'000'000;
 std::string listed(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ",")); }
 
 /// Where each of the model's columns is in the table; nothing for an input that is not there.
-std::vector<std::optional<std::size_t>> places_of(const Table& table, const std::vector<Column>& columns, const std::string& model) {
+std::vector<std::optional<std::size_t>> places_of(const Table& table, const std::vector<Column>& columns,
+                                                  const std::string& model) {
   std::vector<std::optional<std::size_t>> places;
   for (const Column& column : columns) {
     places.push_back(table.column(column.name));
     if (!places.back() && !column.input)
-      throw Refusal(ExitCode::kBadData, {fmt::format("{}:{}", table.path, table.header_line), "header", fmt::format("a column \"{}\" for {}", column.name, model), fmt::format("\"{}\"", listed(table.header)), "See mote models " + model + "."});
+      throw Refusal(ExitCode::kBadData,
+                    {fmt::format("{}:{}", table.path, table.header_line), "header",
+                     fmt::format("a column \"{}\" for {}", column.name, model),
+                     fmt::format("\"{}\"", listed(table.header)), "See mote models " + model + "."});
   }
   return places;
 }
 
-Row<double> row_from(const Table& table, const Table::Line& line, const std::vector<Column>& columns, const std::vector<std::optional<std::size_t>>& places) {
+Row<double> row_from(const Table& table, const Table::Line& line, const std::vector<Column>& columns,
+                     const std::vector<std::optional<std::size_t>>& places) {
   Row<double> row;
   bool seen = false;
   for (std::size_t j = 0; j < columns.size(); ++j) {
@@ -36,13 +41,22 @@ Row<double> row_from(const Table& table, const Table::Line& line, const std::vec
   }
   for (std::size_t j = 0; seen && j < columns.size(); ++j)
     if (columns[j].input && !row.seen(j))
-      throw Refusal(ExitCode::kBadData, {table.where(line), fmt::format("column \"{}\"", columns[j].name), "a finite number, since the row is observed", "a missing value", "Leave the observation empty too if the row is not to be used."});
+      throw Refusal(ExitCode::kBadData, {table.where(line), fmt::format("column \"{}\"", columns[j].name),
+                                         "a finite number, since the row is observed", "a missing value",
+                                         "Leave the observation empty too if the row is not to be used."});
   return row;
 }
 
 void check_time(const Table& table, const Table::Line& line, Step before, Step t) {
-  if (t < before) throw Refusal(ExitCode::kBadData, {table.where(line), "column \"t\"", fmt::format("at least {}, the time before (t never decreases)", before), std::to_string(t), "Sort the rows by t."});
-  if (t - before > kLongestGap) throw Refusal(ExitCode::kBadData, {table.where(line), "column \"t\"", fmt::format("a gap of at most {} steps after {}", kLongestGap, before), std::to_string(t), "Steps are predicted one by one from t = 0; number them from 1."});
+  if (t < before)
+    throw Refusal(ExitCode::kBadData, {table.where(line), "column \"t\"",
+                                       fmt::format("at least {}, the time before (t never decreases)", before),
+                                       std::to_string(t), "Sort the rows by t."});
+  if (t - before > kLongestGap)
+    throw Refusal(
+        ExitCode::kBadData,
+        {table.where(line), "column \"t\"", fmt::format("a gap of at most {} steps after {}", kLongestGap, before),
+         std::to_string(t), "Steps are predicted one by one from t = 0; number them from 1."});
 }
 
 bool observed(const Row<double>& row, const std::vector<Column>& columns) {
@@ -80,11 +94,17 @@ Truth truth_from(const Table& table, const std::vector<Quantity>& states) {
     names.push_back(state.name);
   }
   if (std::none_of(truth.known.begin(), truth.known.end(), [](bool k) { return k; }))
-    throw Refusal(ExitCode::kBadData, {fmt::format("{}:{}", table.path, table.header_line), "header", "at least one state of the model (" + listed(names) + ")", "\"" + listed(table.header) + "\"", "Name the columns of the truth like the states."});
+    throw Refusal(ExitCode::kBadData,
+                  {fmt::format("{}:{}", table.path, table.header_line), "header",
+                   "at least one state of the model (" + listed(names) + ")", "\"" + listed(table.header) + "\"",
+                   "Name the columns of the truth like the states."});
   Step before = 0;
   for (const auto& line : table.lines) {
     const Step t = time_field(table, line);
-    if (t <= before) throw Refusal(ExitCode::kBadData, {table.where(line), "column \"t\"", fmt::format("more than {}, the time before (one true state a step)", before), std::to_string(t), "Sort the rows by t."});
+    if (t <= before)
+      throw Refusal(ExitCode::kBadData, {table.where(line), "column \"t\"",
+                                         fmt::format("more than {}, the time before (one true state a step)", before),
+                                         std::to_string(t), "Sort the rows by t."});
     before = t;
     std::vector<double>& x = truth.states[t];
     for (const auto& place : places) x.push_back(place ? number_field(table, line, *place) : kNaN);

@@ -11,7 +11,8 @@ namespace mote {
 
 /// Rows of a table as a model's columns ask for them, grouped by step.
 ///
-/// error   Refusal (kBadData): a missing observation column, a bad value, t decreasing, a gap of more than ten million steps,
+/// error   Refusal (kBadData): a missing observation column, a bad value, t decreasing, a gap of more than ten million
+/// steps,
 ///         an input missing where the row is observed
 Recording recording_from(const Table& table, const std::vector<Column>& columns, const std::string& model);
 

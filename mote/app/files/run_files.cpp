@@ -1,8 +1,8 @@
 #include "mote/app/files/run_files.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "mote/app/files/output.hpp"
@@ -10,10 +10,14 @@
 namespace mote {
 namespace {
 
-bool has_chain(const RunRecord& record) { return record.plan.filter == FilterKind::kImh || record.plan.filter == FilterKind::kAuxiliary; }
+bool has_chain(const RunRecord& record) {
+  return record.plan.filter == FilterKind::kImh || record.plan.filter == FilterKind::kAuxiliary;
+}
 
 /// A column name as CSV wants it.
-std::string quoted(const std::string& name) { return name.find_first_of("\",") == std::string::npos ? name : "\"" + name + "\""; }
+std::string quoted(const std::string& name) {
+  return name.find_first_of("\",") == std::string::npos ? name : "\"" + name + "\"";
+}
 
 /// JSON has no infinities: null stands for "not a number".
 nlohmann::json number(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr); }
@@ -60,7 +64,10 @@ nlohmann::json summary_json(const RunRecord& record, const Summary& summary) {
     for (std::size_t d = 0; d < summary.rmse.size(); ++d)
       if (std::isfinite(summary.rmse[d])) json["rmse"][record.states[d].name] = summary.rmse[d];
   }
-  if (summary.position_error) json["position_error"] = {{"mean", summary.position_error->mean}, {"median", summary.position_error->median}, {"rmse", summary.position_error->rmse}};
+  if (summary.position_error)
+    json["position_error"] = {{"mean", summary.position_error->mean},
+                              {"median", summary.position_error->median},
+                              {"rmse", summary.position_error->rmse}};
   return json;
 }
 

@@ -1,14 +1,16 @@
 #pragma once
 /// Files of a run: estimates, summary, particles.
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
+
+#include <nlohmann/json_fwd.hpp>
 
 #include "mote/engine/run_record.hpp"
 
 namespace mote {
 
-/// The estimates as CSV: t, mean and sd of every state, ess, log_evidence, acceptance (IMH), then the functions asked for.
+/// The estimates as CSV: t, mean and sd of every state, ess, log_evidence, acceptance (IMH), then the functions asked
+/// for.
 std::string estimates_csv(const RunRecord& record);
 
 /// The summary as JSON.

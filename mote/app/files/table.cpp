@@ -1,9 +1,9 @@
 #include "mote/app/files/table.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "mote/app/files/text.hpp"
 #include "mote/base/refusal.hpp"
@@ -34,10 +34,15 @@ std::string quoted(std::string_view field) {
 
 void check_header(const Table& table) {
   for (std::size_t i = 0; i < table.header.size(); ++i)
-    if (std::find(table.header.begin(), table.header.begin() + static_cast<std::ptrdiff_t>(i), table.header[i]) != table.header.begin() + static_cast<std::ptrdiff_t>(i))
-      throw Refusal(ExitCode::kBadData, {fmt::format("{}:{}", table.path, table.header_line), "header", "every column once", fmt::format("{} twice", quoted(table.header[i])), "Rename one of them."});
+    if (std::find(table.header.begin(), table.header.begin() + static_cast<std::ptrdiff_t>(i), table.header[i]) !=
+        table.header.begin() + static_cast<std::ptrdiff_t>(i))
+      throw Refusal(ExitCode::kBadData,
+                    {fmt::format("{}:{}", table.path, table.header_line), "header", "every column once",
+                     fmt::format("{} twice", quoted(table.header[i])), "Rename one of them."});
   if (table.header.front() != "t")
-    throw Refusal(ExitCode::kBadData, {fmt::format("{}:{}", table.path, table.header_line), "first column", "\"t\"", quoted(table.header.front()), "A data file starts with a header line whose first column is t."});
+    throw Refusal(ExitCode::kBadData,
+                  {fmt::format("{}:{}", table.path, table.header_line), "first column", "\"t\"",
+                   quoted(table.header.front()), "A data file starts with a header line whose first column is t."});
 }
 
 }  // namespace
@@ -69,13 +74,19 @@ Table parse_table(std::string path, std::string text) {
       table.header.assign(fields.begin(), fields.end());
       check_header(table);
     } else if (fields.size() != table.header.size()) {
-      throw Refusal(ExitCode::kBadData, {fmt::format("{}:{}", table.path, number), "", fmt::format("{} fields as in the header", table.header.size()), std::to_string(fields.size()), "The line may be cut off; write an empty field for a missed observation."});
+      throw Refusal(
+          ExitCode::kBadData,
+          {fmt::format("{}:{}", table.path, number), "", fmt::format("{} fields as in the header", table.header.size()),
+           std::to_string(fields.size()), "The line may be cut off; write an empty field for a missed observation."});
     } else {
       table.lines.push_back({number, std::move(fields)});
     }
   }
-  if (!have_header) throw Refusal(ExitCode::kBadData, {table.path, "", "a header line and rows of data", "an empty file", "Its first column is t."});
-  if (table.lines.empty()) throw Refusal(ExitCode::kBadData, {table.path, "", "rows of data after the header", "none", ""});
+  if (!have_header)
+    throw Refusal(ExitCode::kBadData,
+                  {table.path, "", "a header line and rows of data", "an empty file", "Its first column is t."});
+  if (table.lines.empty())
+    throw Refusal(ExitCode::kBadData, {table.path, "", "rows of data after the header", "none", ""});
   return table;
 }
 
@@ -84,7 +95,9 @@ Table read_table(const std::string& path) { return parse_table(path, read_text(p
 int time_field(const Table& table, const Table::Line& line) {
   const auto t = integer_in(line.fields.front());
   if (!t || *t < 1 || *t > kLastTime)
-    throw Refusal(ExitCode::kBadData, {table.where(line), "column \"t\"", fmt::format("an integer from 1 to {}", kLastTime), quoted(line.fields.front()), "Number the steps from 1."});
+    throw Refusal(ExitCode::kBadData,
+                  {table.where(line), "column \"t\"", fmt::format("an integer from 1 to {}", kLastTime),
+                   quoted(line.fields.front()), "Number the steps from 1."});
   return static_cast<int>(*t);
 }
 
@@ -93,7 +106,9 @@ double number_field(const Table& table, const Table::Line& line, std::size_t col
   if (field.empty()) return std::nan("");
   const auto value = number_in(field);
   if (!value || std::isinf(*value))
-    throw Refusal(ExitCode::kBadData, {table.where(line), fmt::format("column \"{}\"", table.header[column]), "a finite number or an empty field", quoted(field), "Write nan for a missed observation."});
+    throw Refusal(ExitCode::kBadData,
+                  {table.where(line), fmt::format("column \"{}\"", table.header[column]),
+                   "a finite number or an empty field", quoted(field), "Write nan for a missed observation."});
   return *value;
 }
 

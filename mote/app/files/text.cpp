@@ -13,7 +13,9 @@
 namespace mote {
 
 std::string read_text(const std::string& path) {
-  const auto refuse = [&](const std::string& got) { return Refusal(ExitCode::kBadData, {path, "", "a file that can be read", got, "Check the path."}); };
+  const auto refuse = [&](const std::string& got) {
+    return Refusal(ExitCode::kBadData, {path, "", "a file that can be read", got, "Check the path."});
+  };
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) throw refuse("a folder");
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
@@ -30,7 +32,8 @@ std::optional<double> number_in(std::string_view text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   // 1e-400 is zero, 1e400 infinity: strtod tells which
-  if (error == std::errc::result_out_of_range && end == text.data() + text.size()) return std::strtod(std::string(text).c_str(), nullptr);
+  if (error == std::errc::result_out_of_range && end == text.data() + text.size())
+    return std::strtod(std::string(text).c_str(), nullptr);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
 }

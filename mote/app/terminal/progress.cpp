@@ -1,9 +1,9 @@
 #include "mote/app/terminal/progress.hpp"
 
+#include <cstdio>
+
 #include <fmt/format.h>
 #include <unistd.h>
-
-#include <cstdio>
 
 namespace mote {
 
@@ -23,7 +23,9 @@ void Progress::update(std::size_t done, std::size_t all) {
   const double seconds = std::chrono::duration<double>(now - start_).count();
   const double rate = static_cast<double>(done) / seconds;
   const auto filled = static_cast<std::size_t>(share * kWidth);
-  fmt::print(stderr, "\r\x1b[K[{}{}] {:3.0f} %  {}/{} {}  {:.3g} {}/s  {:.0f} s left", std::string(filled, '#'), std::string(kWidth - filled, '.'), 100 * share, done, all, unit_, rate, unit_, static_cast<double>(all - done) / rate);
+  fmt::print(stderr, "\r\x1b[K[{}{}] {:3.0f} %  {}/{} {}  {:.3g} {}/s  {:.0f} s left", std::string(filled, '#'),
+             std::string(kWidth - filled, '.'), 100 * share, done, all, unit_, rate, unit_,
+             static_cast<double>(all - done) / rate);
   std::fflush(stderr);
 }
 

@@ -6,7 +6,8 @@
 
 namespace mote {
 
-// Liu & Chen 1998: floor(N_out w_i) certain copies; the R that are left are multinomial in the remainders, whose sum is R.
+// Liu & Chen 1998: floor(N_out w_i) certain copies; the R that are left are multinomial in the remainders, whose sum is
+// R.
 void residual(std::span<const double> weights, const Draws& draws, std::span<std::uint32_t> ancestors) {
   const double total = ordered_sum(weights.size(), [&](std::size_t i) { return weights[i]; });
   const double scale = static_cast<double>(ancestors.size()) / total;
@@ -16,7 +17,8 @@ void residual(std::span<const double> weights, const Draws& draws, std::span<std
     const double expected = weights[i] * scale;
     const double certain = std::floor(expected);
     remainders[i] = expected - certain;
-    for (double k = 0; k < certain && placed < ancestors.size(); ++k) ancestors[placed++] = static_cast<std::uint32_t>(i);
+    for (double k = 0; k < certain && placed < ancestors.size(); ++k)
+      ancestors[placed++] = static_cast<std::uint32_t>(i);
   }
   if (placed < ancestors.size()) multinomial(remainders, draws, ancestors.subspan(placed));
 }
