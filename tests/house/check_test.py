@@ -3,6 +3,7 @@ design   a tree with ./check, its shared lines and stand-ins for every tool it c
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import tempfile
@@ -36,7 +37,7 @@ class Check(unittest.TestCase):
             self.assertEqual(log.exists(), done.returncode != 2 and "--help" not in options)
             if log.exists():
                 self.assertEqual(log.read_text(encoding="utf-8"), done.stdout)
-            called = [line.split(" -j ")[0] for line in calls.read_text(encoding="utf-8").splitlines()] if calls.exists() else []
+            called = [re.sub(r" -j \d+( --output-on-failure)?( --no-tests=error)?", "", line) for line in calls.read_text(encoding="utf-8").splitlines()] if calls.exists() else []
             return done.returncode, [line for line in done.stdout.splitlines() if line], called
 
     def test_passes_and_ends_with_the_summary_and_one_line(self):
@@ -76,6 +77,7 @@ class Check(unittest.TestCase):
         code, _, calls = self.run_check("--fast")
         self.assertEqual(code, 0)
         self.assertEqual(calls[0], "cmake --preset release")
+        self.assertRegex(calls[-1], r"^ctest --test-dir .* -LE nightly\|slow$")
 
     def test_wrong_use_is_refused(self):
         self.assertEqual(self.run_check("--quick")[0], 2)
