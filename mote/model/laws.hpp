@@ -92,8 +92,14 @@ struct Node {
     return make([](double x, double, double) { return std::f(x); }, a); \
   }
   MOTE_UNARY(sqrt)
-  MOTE_UNARY(exp) MOTE_UNARY(log) MOTE_UNARY(sin) MOTE_UNARY(cos) MOTE_UNARY(tan) MOTE_UNARY(atan) MOTE_UNARY(abs)
-      MOTE_UNARY(floor)
+  MOTE_UNARY(exp)
+  MOTE_UNARY(log)
+  MOTE_UNARY(sin)
+  MOTE_UNARY(cos)
+  MOTE_UNARY(tan)
+  MOTE_UNARY(atan)
+  MOTE_UNARY(abs)
+  MOTE_UNARY(floor)
 #undef MOTE_UNARY
 };
 
@@ -138,8 +144,14 @@ struct Pack {
     return map([](double x) { return std::f(x); }, a); \
   }
   MOTE_UNARY(sqrt)
-  MOTE_UNARY(exp) MOTE_UNARY(log) MOTE_UNARY(sin) MOTE_UNARY(cos) MOTE_UNARY(tan) MOTE_UNARY(atan) MOTE_UNARY(abs)
-      MOTE_UNARY(floor)
+  MOTE_UNARY(exp)
+  MOTE_UNARY(log)
+  MOTE_UNARY(sin)
+  MOTE_UNARY(cos)
+  MOTE_UNARY(tan)
+  MOTE_UNARY(atan)
+  MOTE_UNARY(abs)
+  MOTE_UNARY(floor)
 #undef MOTE_UNARY
 };
 

@@ -1,15 +1,15 @@
 #pragma once
 /// Runs the built program as a user does: a child process in a folder of its own.
 
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
 #include <string>
+
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace mote::testing {
 

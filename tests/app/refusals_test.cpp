@@ -1,9 +1,9 @@
 // Bad input and wrong use: exit code, one sentence, nothing lost and nothing left.
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <regex>
+
+#include <gtest/gtest.h>
 
 #include "tests/app/program.hpp"
 
@@ -12,10 +12,10 @@ namespace {
 
 struct Case {
   std::string name;
-  std::string data;       // written to d.csv
-  std::string line;       // the shell line
+  std::string data;  // written to d.csv
+  std::string line;  // the shell line
   int code;
-  std::string sentence;   // a regular expression that the one line on standard error holds
+  std::string sentence;    // a regular expression that the one line on standard error holds
   std::string other = {};  // written to other.toml
 };
 
@@ -23,7 +23,8 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 const std::string kGood = "t,y\n1,1100\n2,1000\n";
 const std::string kRun = "mote run local-level --data d.csv --out e.csv --summary s.json -n 50 ";
-const std::string kMatrices = "F=[[1,0],[0,1]]\nQ=[[1,0],[0,1]]\nH=[[1,0]]\nR=[[1]]\nmean=[0,0]\ncovariance=[[1,0],[0,1]]\n";
+const std::string kMatrices =
+    "F=[[1,0],[0,1]]\nQ=[[1,0],[0,1]]\nH=[[1,0]]\nR=[[1]]\nmean=[0,0]\ncovariance=[[1,0],[0,1]]\n";
 
 class Refused : public ::testing::TestWithParam<Case> {};
 
@@ -48,7 +49,8 @@ const std::vector<Case> kData{
     {"NoHeader", "1,1100\n2,1000\n", kRun, 3, R"(d\.csv:1: first column: expected "t", got "1")"},
     {"FirstColumnNotTime", "y,t\n1,1\n", kRun, 3, R"(first column: expected "t", got "y")"},
     {"WrongColumn", "t,z\n1,1100\n", kRun, 3, R"(d\.csv:1: header: expected a column "y" for local-level)"},
-    {"TextInNumber", "t,y\n1,1100\n2,n/a\n", kRun, 3, R"(d\.csv:3: column "y": expected a finite number or an empty field, got "n/a")"},
+    {"TextInNumber", "t,y\n1,1100\n2,n/a\n", kRun, 3,
+     R"(d\.csv:3: column "y": expected a finite number or an empty field, got "n/a")"},
     {"HalfANumber", "t,y\n1,11x\n", kRun, 3, R"(d\.csv:2: column "y".*got "11x")"},
     {"Infinity", "t,y\n1,inf\n", kRun, 3, R"(column "y".*finite number.*got "inf")"},
     {"TooLargeANumber", "t,y\n1,1e999\n", kRun, 3, R"(column "y".*got "1e999")"},
@@ -62,11 +64,15 @@ const std::vector<Case> kData{
     {"TruncatedLine", "t,y\n1,1100\n2", kRun, 3, R"(d\.csv:3: expected 2 fields as in the header, got 1)"},
     {"TooManyFields", "t,y\n1,1,1\n", kRun, 3, "expected 2 fields as in the header, got 3"},
     {"ColumnTwice", "t,y,y\n1,1,1\n", kRun, 3, R"(every column once, got "y" twice)"},
-    {"FrameWithAHole", "t,doa1,doa3\n1,0.1,0.1\n", "mote run doa --data d.csv --out e.csv", 3, R"(a column "doa2" for doa)"},
-    {"FrameTooShort", "t,doa1,doa2\n1,0.1,0.1\n2,0.1\n", "mote run doa --data d.csv", 3, R"(d\.csv:3: expected 3 fields)"},
-    {"InputMissing", "t,bearing,sensor_x\n1,0.1,\n", "mote run bearings --data d.csv", 3, R"(column "sensor_x": expected a finite number, since the row is observed)"},
+    {"FrameWithAHole", "t,doa1,doa3\n1,0.1,0.1\n", "mote run doa --data d.csv --out e.csv", 3,
+     R"(a column "doa2" for doa)"},
+    {"FrameTooShort", "t,doa1,doa2\n1,0.1,0.1\n2,0.1\n", "mote run doa --data d.csv", 3,
+     R"(d\.csv:3: expected 3 fields)"},
+    {"InputMissing", "t,bearing,sensor_x\n1,0.1,\n", "mote run bearings --data d.csv", 3,
+     R"(column "sensor_x": expected a finite number, since the row is observed)"},
     {"Garbage", std::string("\x01\x02\x00\xff\xfe\n\x03\n", 8), kRun, 3, "first column"},
-    {"DataIsAFolder", kGood, "mkdir f; mote run local-level --data f; code=$?; rmdir f; exit $code", 3, "f: expected a file that can be read, got a folder"},
+    {"DataIsAFolder", kGood, "mkdir f; mote run local-level --data f; code=$?; rmdir f; exit $code", 3,
+     "f: expected a file that can be read, got a folder"},
     {"TruthMissing", kGood, kRun + "--truth no.csv", 3, R"(no\.csv: expected a file)"},
     {"TruthWithoutStates", kGood, kRun + "--truth d.csv", 3, R"(at least one state of the model \(level\))"},
     {"Collapse", "t,y\n1,1e300\n", kRun, 4, "collapsed.*--on-collapse keep"},
@@ -94,13 +100,16 @@ const std::vector<Case> kUse{
     {"NanParameter", kGood, kRun + "--set p0=nan", 2, "--set p0"},
     {"ThreeCopies", kGood, "mote run ungm --data d.csv --set copies=3", 2, "copies: expected an integer from 1 to 2"},
     {"SeedNegative", kGood, kRun + "--seed -1", 2, "--seed: expected an integer from 0"},
-    {"ThresholdTooLarge", kGood, kRun + "--ess-threshold 1.5", 2, "--ess-threshold: expected a number from 0 to 1, got 1.5"},
+    {"ThresholdTooLarge", kGood, kRun + "--ess-threshold 1.5", 2,
+     "--ess-threshold: expected a number from 0 to 1, got 1.5"},
     {"ThresholdNan", kGood, kRun + "--ess-threshold nan", 2, "--ess-threshold"},
     {"BurnInNegative", kGood, kRun + "--filter imh --burn-in -1", 2, "--burn-in"},
-    {"DrawsBelowParticles", kGood, kRun + "--filter imh --draws 10", 2, "--draws: expected an integer from the number of particles"},
+    {"DrawsBelowParticles", kGood, kRun + "--filter imh --draws 10", 2,
+     "--draws: expected an integer from the number of particles"},
     {"MoreChainsThanParticles", kGood, kRun + "--filter imh --chains 51", 2, "--chains: expected an integer from 1"},
     {"MoreGroupsThanParticles", kGood, kRun + "--filter distributed --groups 51", 2, "--groups: expected"},
-    {"ExchangeTooMany", kGood, kRun + "--filter distributed --groups 10 --exchange swap --exchange-count 6", 2, "--exchange-count: expected an integer from 1 to 5"},
+    {"ExchangeTooMany", kGood, kRun + "--filter distributed --groups 10 --exchange swap --exchange-count 6", 2,
+     "--exchange-count: expected an integer from 1 to 5"},
     {"ImprovedSisr", kGood, kRun + "--improved", 2, "--improved: expected --filter imh or auxiliary"},
     {"LookaheadImh", kGood, kRun + "--filter imh --parent-weights lookahead", 2, "--parent-weights lookahead"},
     {"NoSimdYet", kGood, kRun + "--engine pipeline", 2, "--engine pipeline: this version of mote does not have"},
@@ -112,7 +121,8 @@ const std::vector<Case> kUse{
     {"TooManyParticles", kGood, kRun + "-n 268435457", 2, "--particles: expected an integer from 1 to 268435456"},
     {"ParticlesInWords", kGood, kRun + "-n many", 2, "--particles: expected an integer"},
     {"ParticlesWithExponent", kGood, kRun + "-n 1e3", 2, "--particles: expected an integer"},
-    {"SumOverParentsWithoutDensity", "t,bearing\n1,0.1\n", "mote run bearings --data d.csv --filter imh --proposal wide", 2, "fewer dimensions than its state"},
+    {"SumOverParentsWithoutDensity", "t,bearing\n1,0.1\n",
+     "mote run bearings --data d.csv --filter imh --proposal wide", 2, "fewer dimensions than its state"},
     {"NoStepsToSimulate", "", "mote simulate ungm --steps 0 --out o.csv", 2, "--steps: expected an integer from 1"},
     {"SimulateToNowhere", "", "mote simulate ungm", 2, "--out: expected a file for the observations"},
     {"UnknownPaper", "", "mote reproduce nature --out r", 2, "PAPER: expected one of imh-hw"},
@@ -120,18 +130,29 @@ const std::vector<Case> kUse{
 
 const std::vector<Case> kFiles{
     {"NoMatrices", kGood, "mote run linear-gaussian --data d.csv", 2, "--set file"},
-    {"MatricesMissing", kGood, "mote run linear-gaussian --data d.csv --set file=no.toml", 3, R"(no\.toml: expected a file)"},
-    {"MatricesBroken", kGood, "mote run linear-gaussian --data d.csv --set file=other.toml", 3, R"(other\.toml:1: expected TOML)", "F=[[1\n"},
-    {"MatricesIncomplete", kGood, "mote run linear-gaussian --data d.csv --set file=other.toml", 3, R"("Q": expected a key of that name)", "F=[[1]]\n"},
-    {"MatricesOfText", kGood, "mote run linear-gaussian --data d.csv --set file=other.toml", 3, R"("F": expected)", "F=[[\"a\"]]\nQ=[[1]]\nH=[[1]]\nR=[[1]]\nmean=[0]\ncovariance=[[1]]\n"},
-    {"MatricesRagged", kGood, "mote run linear-gaussian --data d.csv --set file=other.toml", 3, "rows of equal length", "F=[[1,0],[0]]\nQ=[[1]]\nH=[[1]]\nR=[[1]]\nmean=[0]\ncovariance=[[1]]\n"},
-    {"MatricesOfWrongShape", kGood, "mote run linear-gaussian --data d.csv --set file=other.toml", 3, "Q must be 1 x 1", "F=[[1]]\nQ=[[1,0],[0,1]]\nH=[[1]]\nR=[[1]]\nmean=[0]\ncovariance=[[1]]\n"},
-    {"MatricesAsymmetric", kGood, "mote run linear-gaussian --data d.csv --set file=other.toml", 3, "covariance must be symmetric", "F=[[1,0],[0,1]]\nQ=[[1,0],[0,1]]\nH=[[1,0]]\nR=[[1]]\nmean=[0,0]\ncovariance=[[1,2],[0,1]]\n"},
-    {"FolderOfOutputMissing", kGood, kRun + "--report no/r.html", 6, R"(no/r\.html: expected an output that can be written)"},
-    {"OutputIsAFolder", kGood, "mkdir f; mote run local-level --data d.csv --out f; code=$?; rmdir f; exit $code", 6, "f: expected an output that can be written"},
+    {"MatricesMissing", kGood, "mote run linear-gaussian --data d.csv --set file=no.toml", 3,
+     R"(no\.toml: expected a file)"},
+    {"MatricesBroken", kGood, "mote run linear-gaussian --data d.csv --set file=other.toml", 3,
+     R"(other\.toml:1: expected TOML)", "F=[[1\n"},
+    {"MatricesIncomplete", kGood, "mote run linear-gaussian --data d.csv --set file=other.toml", 3,
+     R"("Q": expected a key of that name)", "F=[[1]]\n"},
+    {"MatricesOfText", kGood, "mote run linear-gaussian --data d.csv --set file=other.toml", 3, R"("F": expected)",
+     "F=[[\"a\"]]\nQ=[[1]]\nH=[[1]]\nR=[[1]]\nmean=[0]\ncovariance=[[1]]\n"},
+    {"MatricesRagged", kGood, "mote run linear-gaussian --data d.csv --set file=other.toml", 3, "rows of equal length",
+     "F=[[1,0],[0]]\nQ=[[1]]\nH=[[1]]\nR=[[1]]\nmean=[0]\ncovariance=[[1]]\n"},
+    {"MatricesOfWrongShape", kGood, "mote run linear-gaussian --data d.csv --set file=other.toml", 3, "Q must be 1 x 1",
+     "F=[[1]]\nQ=[[1,0],[0,1]]\nH=[[1]]\nR=[[1]]\nmean=[0]\ncovariance=[[1]]\n"},
+    {"MatricesAsymmetric", kGood, "mote run linear-gaussian --data d.csv --set file=other.toml", 3,
+     "covariance must be symmetric",
+     "F=[[1,0],[0,1]]\nQ=[[1,0],[0,1]]\nH=[[1,0]]\nR=[[1]]\nmean=[0,0]\ncovariance=[[1,2],[0,1]]\n"},
+    {"FolderOfOutputMissing", kGood, kRun + "--report no/r.html", 6,
+     R"(no/r\.html: expected an output that can be written)"},
+    {"OutputIsAFolder", kGood, "mkdir f; mote run local-level --data d.csv --out f; code=$?; rmdir f; exit $code", 6,
+     "f: expected an output that can be written"},
     {"DiskFull", kGood, kRun + "--dump-particles /dev/full", 6, "/dev/full: expected an output that can be written"},
     {"DiskFullAtTheEnd", kGood, "mote run local-level --data d.csv --out /dev/full --summary s.json", 6, "/dev/full"},
-    {"TwoOutputsInOneFile", kGood, "mote run local-level --data d.csv --out x --summary x", 2, "every output in a file of its own"},
+    {"TwoOutputsInOneFile", kGood, "mote run local-level --data d.csv --out x --summary x", 2,
+     "every output in a file of its own"},
     {"OutputOverItself", kGood, "mote simulate ungm --out x --truth ./x", 2, "every output in a file of its own"},
 };
 
@@ -169,14 +190,19 @@ const std::vector<Case> kAccepted{
     {"SameTimeTwice", "t,y\n1,1100\n1,1000\n2,900\n", kRun, 0, "^t,.*\n1,.*\n2,"},
     {"ExtraColumn", "t,y,comment\n1,1100,hello\n", kRun, 0, "\n1,[0-9]"},
     {"OneParticle", kGood, kRun + "-n 1", 0, "\n2,[0-9]"},
-    {"Estimates", kGood, kRun + "--estimate 'q0.9(level)' --estimate 'P(level>1000)' --estimate 'median(level)'", 0, R"(log_evidence,q0\.9\(level\),P\(level>1000\),median\(level\))"},
-    {"StandardOutput", kGood, "mote run local-level --data d.csv --out -", 0, "^t,level_mean,level_sd,ess,log_evidence\n1,"},
+    {"Estimates", kGood, kRun + "--estimate 'q0.9(level)' --estimate 'P(level>1000)' --estimate 'median(level)'", 0,
+     R"(log_evidence,q0\.9\(level\),P\(level>1000\),median\(level\))"},
+    {"StandardOutput", kGood, "mote run local-level --data d.csv --out -", 0,
+     "^t,level_mean,level_sd,ess,log_evidence\n1,"},
     {"Pipe", kGood, "mote run local-level --data d.csv --out /dev/stdout | cat", 0, "^t,level_mean"},
     {"CollapseKept", "t,y\n1,1e300\n2,1000\n", kRun + "--on-collapse keep", 0, "\n1,.*,-inf\n2,"},
     {"CollapseReset", "t,y\n1,1e300\n2,1000\n", kRun + "--on-collapse reset", 0, "\n1,.*,-inf\n2,"},
-    {"Matrices", "t,y\n1,0.5\n", "mote run linear-gaussian --data d.csv --set file=other.toml --out e.csv", 0, "t,x1_mean,x1_sd,x2_mean,x2_sd,ess,log_evidence", kMatrices},
+    {"Matrices", "t,y\n1,0.5\n", "mote run linear-gaussian --data d.csv --set file=other.toml --out e.csv", 0,
+     "t,x1_mean,x1_sd,x2_mean,x2_sd,ess,log_evidence", kMatrices},
     {"Acceptance", kGood, kRun + "--filter imh --improved", 0, "ess,log_evidence,acceptance\n"},
-    {"Bearings", "t,bearing,sensor_x,sensor_y,sensor_heading\n1,0.76,0,0,0\n1,0.7,0,0.01,0\n2,0.75,0,0,0\n", "mote run bearings --data d.csv --out e.csv", 0, "t,x_mean,x_sd,vx_mean,vx_sd,y_mean,y_sd,vy_mean,vy_sd,ess,log_evidence\n1,"},
+    {"Bearings", "t,bearing,sensor_x,sensor_y,sensor_heading\n1,0.76,0,0,0\n1,0.7,0,0.01,0\n2,0.75,0,0,0\n",
+     "mote run bearings --data d.csv --out e.csv", 0,
+     "t,x_mean,x_sd,vx_mean,vx_sd,y_mean,y_sd,vy_mean,vy_sd,ess,log_evidence\n1,"},
 };
 
 INSTANTIATE_TEST_SUITE_P(Input, Accepted, ::testing::ValuesIn(kAccepted), name_of);
@@ -185,7 +211,9 @@ TEST(Outputs, ReplaceAFileWholeAndKeepItsMode) {
   const Scratch scratch;
   scratch.write("d.csv", kGood);
   scratch.write("e.csv", "old");
-  const Ended ended = scratch.shell("chmod 640 e.csv && ln -s e.csv link.csv && mote run local-level --data d.csv --out link.csv && stat -c %a e.csv && test -L link.csv");
+  const Ended ended = scratch.shell(
+      "chmod 640 e.csv && ln -s e.csv link.csv && mote run local-level --data d.csv --out link.csv && stat -c %a e.csv "
+      "&& test -L link.csv");
   EXPECT_EQ(ended.code, 0) << ended.err;
   EXPECT_NE(ended.out.find("640"), std::string::npos);
   EXPECT_TRUE(scratch.read("e.csv").starts_with("t,level_mean"));
@@ -197,8 +225,12 @@ TEST(Outputs, InterruptedRunLeavesNothing) {
     std::string data = "t,y\n";
     for (int t = 1; t <= 2000; ++t) data += std::to_string(t) + ",1000\n";
     scratch.write("d.csv", data);
-    // exec puts the program itself behind $!; bash lets background jobs ignore SIGINT, so the signal is enabled again by env
-    const Ended ended = scratch.shell("env --default-signal=INT '" MOTE_PROGRAM "' run local-level --data d.csv -n 1000000 --out e.csv --summary s.json --dump-particles p.csv & sleep 1; kill -" + signal + " $!; wait $!");
+    // exec puts the program itself behind $!; bash lets background jobs ignore SIGINT, so the signal is enabled again
+    // by env
+    const Ended ended = scratch.shell("env --default-signal=INT '" MOTE_PROGRAM
+                                      "' run local-level --data d.csv -n 1000000 --out e.csv --summary s.json "
+                                      "--dump-particles p.csv & sleep 1; kill -" +
+                                      signal + " $!; wait $!");
     EXPECT_EQ(ended.code, 130) << ended.err;
     EXPECT_NE(ended.err.find("interrupted after"), std::string::npos) << ended.err;
     EXPECT_EQ(scratch.files().size(), 1U) << "only d.csv stays";
@@ -210,14 +242,17 @@ TEST(Outputs, AReaderThatLeavesIsAFailedWrite) {
   std::string data = "t,y\n";
   for (int t = 1; t <= 20000; ++t) data += std::to_string(t) + ",1000\n";
   scratch.write("d.csv", data);
-  const Ended ended = scratch.shell("{ mote run local-level --data d.csv -n 10 --out /dev/stdout; echo $? >code; } | head -1");
+  const Ended ended =
+      scratch.shell("{ mote run local-level --data d.csv -n 10 --out /dev/stdout; echo $? >code; } | head -1");
   EXPECT_EQ(scratch.read("code"), "6\n") << ended.err;
 }
 
 TEST(Runs, SameSeedSameBytesWhateverTheThreads) {
   const Scratch scratch;
   scratch.shell("mote simulate ungm --steps 30 --seed 4 --out d.csv");
-  const Ended ended = scratch.shell("mote run ungm --data d.csv --out a.csv --threads 1; mote run ungm --data d.csv --out b.csv --threads 2; mote run ungm --data d.csv --out c.csv --seed 2");
+  const Ended ended = scratch.shell(
+      "mote run ungm --data d.csv --out a.csv --threads 1; mote run ungm --data d.csv --out b.csv --threads 2; mote "
+      "run ungm --data d.csv --out c.csv --seed 2");
   EXPECT_EQ(ended.code, 0);
   EXPECT_EQ(scratch.read("a.csv"), scratch.read("b.csv"));
   EXPECT_NE(scratch.read("a.csv"), scratch.read("c.csv"));

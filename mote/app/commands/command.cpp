@@ -65,7 +65,7 @@ void bind(CLI::App& program, Bound& bound) {
   bound.app->footer(bound.command.footer);
   for (const PositionalSpec& spec : bound.command.positionals) {
     CLI::Option* option = bound.app->add_option(spec.name, bound.values[spec.name], spec.meaning);
-    option->expected(1)->type_name("")->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+    option->expected(1)->type_name("")->allow_extra_args(false);
     if (spec.required) option->required();
     bound.options[spec.name] = option;
   }
@@ -78,7 +78,7 @@ void bind(CLI::App& program, Bound& bound) {
       bound.values[name] = {"true"};
     } else {
       option = bound.app->add_option(spec.flags, bound.values[name], meaning)->type_name(spec.value)->expected(1);
-      option->multi_option_policy(spec.many ? CLI::MultiOptionPolicy::TakeAll : CLI::MultiOptionPolicy::Throw);
+      option->multi_option_policy(spec.many ? CLI::MultiOptionPolicy::TakeAll : CLI::MultiOptionPolicy::TakeLast);
       option->allow_extra_args(false);
     }
     option->group(spec.group);
@@ -119,7 +119,7 @@ int dispatched(const CLI::App& program, const std::vector<std::unique_ptr<Bound>
 
 std::string Arguments::text(const std::string& name) const {
   const auto found = given_.find(name);
-  if (found != given_.end()) return found->second.front();
+  if (found != given_.end()) return found->second.back();
   const auto fallback = fallbacks_.find(name);
   return fallback == fallbacks_.end() ? "" : fallback->second;
 }

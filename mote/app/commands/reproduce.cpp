@@ -1,7 +1,7 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <filesystem>
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "mote/app/commands/command.hpp"
@@ -22,7 +22,10 @@ fs::path papers_folder(const std::string& where) {
   const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
   for (const fs::path& folder : {program / "../papers", program / "../share/mote/papers"})
     if (fs::is_directory(folder, error)) return fs::weakly_canonical(folder);
-  throw Refusal(ExitCode::kBadData, {where, "papers", "a folder papers beside the program's folder, or share/mote/papers where it is installed", "neither at " + program.string(), "Install mote, or run build/mote of a checkout."});
+  throw Refusal(
+      ExitCode::kBadData,
+      {where, "papers", "a folder papers beside the program's folder, or share/mote/papers where it is installed",
+       "neither at " + program.string(), "Install mote, or run build/mote of a checkout."});
 }
 
 std::vector<fs::path> items_of(const fs::path& folder) {
@@ -37,7 +40,9 @@ std::vector<fs::path> items_of(const fs::path& folder) {
 void make_folder(const std::string& path) {
   std::error_code error;
   fs::create_directories(path, error);
-  if (error || !fs::is_directory(path)) throw Refusal(ExitCode::kCannotWrite, {path, "", "a folder that can be made", error ? error.message() : "a file of that name", "Pass another --out."});
+  if (error || !fs::is_directory(path))
+    throw Refusal(ExitCode::kCannotWrite, {path, "", "a folder that can be made",
+                                           error ? error.message() : "a file of that name", "Pass another --out."});
 }
 
 std::vector<reproduce::Regenerated> regenerate_all(const std::vector<std::string>& papers, const fs::path& folder) {
@@ -60,22 +65,28 @@ std::vector<reproduce::Regenerated> regenerate_all(const std::vector<std::string
 
 void print_results(const std::vector<reproduce::Regenerated>& all) {
   for (const auto& [item, outcome] : all)
-    for (const auto& result : outcome.results) fmt::print("{:<5} {} {}: {}: {:.4g}\n", result.holds ? "holds" : "NOT", item.paper, item.name, result.asked.name, result.ours);
+    for (const auto& result : outcome.results)
+      fmt::print("{:<5} {} {}: {}: {:.4g}\n", result.holds ? "holds" : "NOT", item.paper, item.name, result.asked.name,
+                 result.ours);
 }
 
 ExitCode run_reproduce(const Arguments& arguments) {
   std::vector<std::string> choices = kPapers;
   choices.emplace_back("all");
   const std::size_t choice = arguments.choice("PAPER", choices);
-  const std::vector<std::string> papers = choice == kPapers.size() ? kPapers : std::vector<std::string>{kPapers[choice]};
-  const std::string out = arguments.required("--out", "a folder for figures, page and comparison.json", "Pass --out reproduced.");
+  const std::vector<std::string> papers =
+      choice == kPapers.size() ? kPapers : std::vector<std::string>{kPapers[choice]};
+  const std::string out =
+      arguments.required("--out", "a folder for figures, page and comparison.json", "Pass --out reproduced.");
   const fs::path folder = papers_folder(arguments.where());
   make_folder(out);
   const auto all = regenerate_all(papers, folder);
   OutputSet outputs;
   outputs.open(out + "/comparison.json")->write(reproduce::comparison_json(all).dump(2) + "\n");
-  outputs.open(out + "/index.html")->write(report::html(reproduce::page_of(choices[choice], all, arguments.command_line())));
-  for (const auto& [item, outcome] : all) outputs.open(out + "/" + reproduce::slug(item) + ".csv")->write(reproduce::figure_csv(outcome));
+  outputs.open(out + "/index.html")
+      ->write(report::html(reproduce::page_of(choices[choice], all, arguments.command_line())));
+  for (const auto& [item, outcome] : all)
+    outputs.open(out + "/" + reproduce::slug(item) + ".csv")->write(reproduce::figure_csv(outcome));
   outputs.commit();
   print_results(all);
   fmt::print("{}/index.html, {}/comparison.json\n", out, out);

@@ -25,7 +25,7 @@ bool written_in_place(const std::string& path) {
 /// The file a path means once symbolic links are followed.
 std::string followed(const std::string& path) {
   std::error_code error;
-  const fs::path real = fs::weakly_canonical(path, error);
+  const fs::path real = fs::weakly_canonical(fs::absolute(path), error);
   return error ? path : real.string();
 }
 

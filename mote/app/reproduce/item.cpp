@@ -1,10 +1,10 @@
 #include "mote/app/reproduce/item.hpp"
 
-#include <fmt/format.h>
-#include <toml++/toml.h>
-
 #include <algorithm>
 #include <array>
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
 
 #include "mote/app/files/text.hpp"
 #include "mote/base/refusal.hpp"
@@ -81,7 +81,8 @@ class Fields {
   void finish() const {
     for (const auto& [key, value] : table_)
       if (std::find(known_.begin(), known_.end(), key.str()) == known_.end())
-        throw Refusal(ExitCode::kBadData, {where(value), fmt::format("\"{}\"", key.str()), fmt::format("one of {}", fmt::join(known_, ", ")), "", ""});
+        throw Refusal(ExitCode::kBadData, {where(value), fmt::format("\"{}\"", key.str()),
+                                           fmt::format("one of {}", fmt::join(known_, ", ")), "", ""});
   }
   [[noreturn]] void refuse(const toml::node& node, std::string_view key, const std::string& expected) const {
     throw Refusal(ExitCode::kBadData, {where(node), fmt::format("\"{}\"", key), expected, "", ""});
@@ -126,12 +127,16 @@ Comparison comparison_from(Fields fields, const std::vector<Run>& runs) {
   c.name = fields.get<std::string>("name");
   const auto word = fields.get<std::string>("kind");
   const auto* found = std::find_if(kKinds.begin(), kKinds.end(), [&](const KindWord& k) { return k.word == word; });
-  if (found == kKinds.end()) fields.refuse(*fields.node("kind"), "kind", "mean-difference, rmse, rmse-ratio, normalised-error or evidence-spread");
+  if (found == kKinds.end())
+    fields.refuse(*fields.node("kind"), "kind",
+                  "mean-difference, rmse, rmse-ratio, normalised-error or evidence-spread");
   c.kind = found->kind;
   c.runs = fields.texts("runs");
-  if (c.runs.size() != found->runs) fields.refuse(*fields.node("kind"), "runs", fmt::format("{} run names for {}", found->runs, word));
+  if (c.runs.size() != found->runs)
+    fields.refuse(*fields.node("kind"), "runs", fmt::format("{} run names for {}", found->runs, word));
   for (const std::string& name : c.runs)
-    if (std::none_of(runs.begin(), runs.end(), [&](const Run& r) { return r.name == name; })) fields.refuse(*fields.node("runs"), "runs", "names of the item's runs");
+    if (std::none_of(runs.begin(), runs.end(), [&](const Run& r) { return r.name == name; }))
+      fields.refuse(*fields.node("runs"), "runs", "names of the item's runs");
   c.state = fields.maybe<std::string>("state").value_or("");
   c.repeats = static_cast<int>(fields.maybe<std::int64_t>("repeats").value_or(20));
   c.at_least = fields.maybe<double>("at_least");
@@ -152,7 +157,8 @@ toml::table parsed(const std::string& path) {
   try {
     return toml::parse(read_text(path), path);
   } catch (const toml::parse_error& error) {
-    throw Refusal(ExitCode::kBadData, {fmt::format("{}:{}", path, error.source().begin.line), "", "TOML", std::string(error.description()), ""});
+    throw Refusal(ExitCode::kBadData, {fmt::format("{}:{}", path, error.source().begin.line), "", "TOML",
+                                       std::string(error.description()), ""});
   }
 }
 
@@ -176,7 +182,8 @@ Item read_item(const std::string& path, const std::string& paper) {
   item.simulated = simulated_from(Fields(fields.table("simulate"), path));
   for (const toml::table* table : fields.tables("run")) item.runs.push_back(run_from(Fields(*table, path)));
   for (const toml::table* table : fields.tables("figure")) item.figures.push_back(figure_from(Fields(*table, path)));
-  for (const toml::table* table : fields.tables("compare")) item.comparisons.push_back(comparison_from(Fields(*table, path), item.runs));
+  for (const toml::table* table : fields.tables("compare"))
+    item.comparisons.push_back(comparison_from(Fields(*table, path), item.runs));
   fields.finish();
   return item;
 }

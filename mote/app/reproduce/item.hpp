@@ -27,11 +27,11 @@ struct Run {
 /// What is computed and compared with the paper.
 struct Comparison {
   enum class Kind {
-    kMeanDifference,  ///< RMS difference over time of two runs' means, in Monte-Carlo deviations of one run
-    kRmse,            ///< RMSE to the truth, mean over repeats
-    kRmseRatio,       ///< RMSE of the first run over that of the second
-    kNormalisedError, ///< RMS of (mean - truth) / sd; 1 = a calibrated filter
-    kEvidenceSpread,  ///< standard deviation over repeats of the log evidence on one recording
+    kMeanDifference,   ///< RMS difference over time of two runs' means, in Monte-Carlo deviations of one run
+    kRmse,             ///< RMSE to the truth, mean over repeats
+    kRmseRatio,        ///< RMSE of the first run over that of the second
+    kNormalisedError,  ///< RMS of (mean - truth) / sd; 1 = a calibrated filter
+    kEvidenceSpread,   ///< standard deviation over repeats of the log evidence on one recording
   };
   std::string name;
   Kind kind = Kind::kRmse;

@@ -1,9 +1,9 @@
 #include "mote/app/reproduce/laboratory.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "mote/app/commands/plan_options.hpp"
 #include "mote/base/refusal.hpp"
@@ -61,25 +61,34 @@ class Laboratory {
 
   double computed(const Comparison& c) const {
     switch (c.kind) {
-      case Kind::kMeanDifference: return mean_difference(c);
-      case Kind::kRmse: return mean_rmse(c, c.runs[0]);
-      case Kind::kRmseRatio: return mean_rmse(c, c.runs[0]) / mean_rmse(c, c.runs[1]);
-      case Kind::kNormalisedError: return normalised_error(c);
-      case Kind::kEvidenceSpread: return evidence_spread(c);
+      case Kind::kMeanDifference:
+        return mean_difference(c);
+      case Kind::kRmse:
+        return mean_rmse(c, c.runs[0]);
+      case Kind::kRmseRatio:
+        return mean_rmse(c, c.runs[0]) / mean_rmse(c, c.runs[1]);
+      case Kind::kNormalisedError:
+        return normalised_error(c);
+      case Kind::kEvidenceSpread:
+        return evidence_spread(c);
     }
     return kNaN;
   }
 
  private:
-  std::unique_ptr<CatalogueModel> made(const std::vector<std::string>& settings) const { return find_model(item_.simulated.model, item_.file).make(Settings(item_.file, settings), header_); }
+  std::unique_ptr<CatalogueModel> made(const std::vector<std::string>& settings) const {
+    return find_model(item_.simulated.model, item_.file).make(Settings(item_.file, settings), header_);
+  }
 
   std::size_t place_of(const std::string& state) const {
     for (std::size_t d = 0; d < states_.size(); ++d)
       if (states_[d].name == state) return d;
-    throw Refusal(ExitCode::kBadData, {item_.file, "\"state\"", "a state of " + item_.simulated.model, "\"" + state + "\"", ""});
+    throw Refusal(ExitCode::kBadData,
+                  {item_.file, "\"state\"", "a state of " + item_.simulated.model, "\"" + state + "\"", ""});
   }
 
-  /// RMS over time of the difference of the repeats' mean estimates, over the RMS Monte-Carlo deviation of one such difference.
+  /// RMS over time of the difference of the repeats' mean estimates, over the RMS Monte-Carlo deviation of one such
+  /// difference.
   double mean_difference(const Comparison& c) const {
     const Scene one = scene(item_.simulated.seed);
     const std::size_t d = place_of(c.state);
@@ -101,7 +110,8 @@ class Laboratory {
     double deviation_of_one = 0;
     for (std::size_t k = 0; k < steps; ++k) {
       difference += std::pow((sums[0][k] - sums[1][k]) / n, 2);
-      for (std::size_t side = 0; side < 2; ++side) deviation_of_one += (squares[side][k] - sums[side][k] * sums[side][k] / n) / (n - 1);
+      for (std::size_t side = 0; side < 2; ++side)
+        deviation_of_one += (squares[side][k] - sums[side][k] * sums[side][k] / n) / (n - 1);
     }
     return std::sqrt(difference / deviation_of_one);
   }
@@ -135,7 +145,8 @@ class Laboratory {
   double evidence_spread(const Comparison& c) const {
     const Scene one = scene(item_.simulated.seed);
     std::vector<double> evidences;
-    for (int r = 0; r < c.repeats; ++r) evidences.push_back(summarise(filtered(c.runs[0], one, static_cast<std::uint64_t>(r)), nullptr).log_evidence);
+    for (int r = 0; r < c.repeats; ++r)
+      evidences.push_back(summarise(filtered(c.runs[0], one, static_cast<std::uint64_t>(r)), nullptr).log_evidence);
     double mean = 0;
     double squares = 0;
     for (const double e : evidences) mean += e / c.repeats;
@@ -143,7 +154,9 @@ class Laboratory {
     return std::sqrt(squares / (c.repeats - 1));
   }
 
-  double deviation(double estimate, double truth, std::size_t d) const { return states_[d].angle ? numbers::wrap(estimate - truth) : estimate - truth; }
+  double deviation(double estimate, double truth, std::size_t d) const {
+    return states_[d].angle ? numbers::wrap(estimate - truth) : estimate - truth;
+  }
 
   const Item& item_;
   std::vector<std::string> header_;
@@ -168,7 +181,8 @@ Outcome regenerate(const Item& item) {
   const Scene one = laboratory.scene(item.simulated.seed);
   outcome.truth = one.truth;
   for (const Run& run : item.runs) outcome.records.emplace_back(run.name, laboratory.filtered(run.name, one, 0));
-  for (const Comparison& comparison : item.comparisons) outcome.results.push_back(judged(comparison, laboratory.computed(comparison)));
+  for (const Comparison& comparison : item.comparisons)
+    outcome.results.push_back(judged(comparison, laboratory.computed(comparison)));
   return outcome;
 }
 

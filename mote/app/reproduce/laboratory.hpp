@@ -24,7 +24,8 @@ struct Outcome {
   std::vector<Result> results;
 };
 
-/// Regenerates an item. Repeats use filter seeds and recording seeds counted up from the item's; runs of one repeat share both.
+/// Regenerates an item. Repeats use filter seeds and recording seeds counted up from the item's; runs of one repeat
+/// share both.
 ///
 /// error   Refusal naming the item's file for options, models and states that do not exist
 Outcome regenerate(const Item& item);
