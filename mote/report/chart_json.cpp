@@ -32,11 +32,11 @@ json numbers(const std::vector<double>& values) {
 
 std::string_view name_of(Series::Mark mark) {
   switch (mark) {
-    case Series::Mark::points:
+    case Series::Mark::kPoints:
       return "points";
-    case Series::Mark::steps:
+    case Series::Mark::kSteps:
       return "steps";
-    case Series::Mark::line:
+    case Series::Mark::kLine:
       break;
   }
   return "line";

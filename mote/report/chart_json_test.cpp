@@ -18,9 +18,9 @@ TEST(ChartJson, CarriesEveryPartOfAChart) {
                              .x_label = "t",
                              .y_label = "m",
                              .bands = {{"estimate ± 2 sd", {1, 2}, {0, 1}, {2, 3}}},
-                             .series = {{"estimate", Series::Mark::line, {1, 2}, {1, 2}},
-                                        {"observed", Series::Mark::points, {1}, {1.5}},
-                                        {"mode", Series::Mark::steps, {1}, {0}}},
+                             .series = {{"estimate", Series::Mark::kLine, {1, 2}, {1, 2}},
+                                        {"observed", Series::Mark::kPoints, {1}, {1.5}},
+                                        {"mode", Series::Mark::kSteps, {1}, {0}}},
                              .log_y = true});
   EXPECT_EQ(json["title"], "Level");
   EXPECT_EQ(json["bands"][0]["high"], nlohmann::json({2, 3}));
@@ -34,7 +34,7 @@ TEST(ChartJson, CarriesEveryPartOfAChart) {
 
 TEST(ChartJson, MakesGapsOfWhatIsNoNumber) {
   const auto json =
-      written({.title = "a", .series = {{"a", Series::Mark::line, {1, 2, 3, 4}, {kNan, kInfinity, -kInfinity, 4}}}});
+      written({.title = "a", .series = {{"a", Series::Mark::kLine, {1, 2, 3, 4}, {kNan, kInfinity, -kInfinity, 4}}}});
   EXPECT_EQ(json["series"][0]["y"].dump(), "[null,null,null,4.0]");
 }
 
@@ -47,7 +47,7 @@ TEST(ChartJson, LetsNoNameEndItsElement) {
 TEST(ChartJson, ReplacesBytesThatAreNoUtf8) { EXPECT_EQ(written({.title = "a\xff z"})["title"], "a\uFFFD z"); }
 
 TEST(ChartJson, WritesSevenDigitsOfTheRange) {
-  const auto json = written({.title = "a", .series = {{"a", Series::Mark::line, {1.0 / 3, 2}, {1e-30 / 3, 1}}}});
+  const auto json = written({.title = "a", .series = {{"a", Series::Mark::kLine, {1.0 / 3, 2}, {1e-30 / 3, 1}}}});
   EXPECT_EQ(json["series"][0]["x"].dump(), "[0.3333333,2.0]");
   EXPECT_EQ(json["series"][0]["y"].dump(), "[3.333333e-31,1.0]");
 }
@@ -57,12 +57,12 @@ TEST(ChartJson, KeepsStepsOfTimeStampsApart) {
   EXPECT_EQ(digits_needed(std::vector<double>{1000, 1001}), 10);
   EXPECT_EQ(digits_needed(std::vector<double>{5, 5, kNan}), 7);
   EXPECT_EQ(digits_needed(std::vector<double>{}), 7);
-  const auto json = written({.title = "a", .series = {{"a", Series::Mark::line, {1.7e9, 1.7e9 + 0.25}, {0, 0}}}});
+  const auto json = written({.title = "a", .series = {{"a", Series::Mark::kLine, {1.7e9, 1.7e9 + 0.25}, {0, 0}}}});
   EXPECT_EQ(json["series"][0]["x"][1], 1.7e9 + 0.25);
 }
 
 TEST(ChartJson, RefusesColumnsOfDifferentLength) {
-  const std::vector<Chart> ragged_series{{.title = "Level", .series = {{"a", Series::Mark::line, {1, 2}, {1}}}}};
+  const std::vector<Chart> ragged_series{{.title = "Level", .series = {{"a", Series::Mark::kLine, {1, 2}, {1}}}}};
   const std::vector<Chart> ragged_band{{.title = "Level", .bands = {{"b", {1, 2}, {1, 2}, {1}}}}};
   try {
     chart_json(ragged_series);

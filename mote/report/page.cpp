@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <ranges>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -83,7 +82,7 @@ bool is_number(std::string_view cell) {
 // Columns of numbers stand right-aligned.
 std::string cell_class(const Table& table, std::size_t column) {
   const auto fits = [&](const auto& row) { return row[column].empty() || is_number(row[column]); };
-  return !table.rows.empty() && std::ranges::all_of(table.rows, fits) ? " class=\"number\"" : "";
+  return !table.rows.empty() && std::all_of(table.rows.begin(), table.rows.end(), fits) ? " class=\"number\"" : "";
 }
 
 std::string table_part(const Table& table) {
@@ -122,9 +121,11 @@ std::string notes_part(const Page& page) {
 std::string command_part(const std::string& command) {
   if (command.empty()) return {};
   std::string words;
-  for (const auto word : std::views::split(command, ' ')) {
-    const std::string_view text(word.begin(), word.end());
+  for (std::size_t at = 0; at <= command.size();) {
+    const std::size_t end = std::min(command.find(' ', at), command.size());
+    const std::string_view text = std::string_view(command).substr(at, end - at);
     words += text.starts_with('-') ? fmt::format(" <span>{}</span>", escaped(text)) : ' ' + escaped(text);
+    at = end + 1;
   }
   return section("command", "Command", fmt::format("<pre><code>{}</code></pre>\n", words.substr(1)));
 }

@@ -11,9 +11,9 @@ namespace mote::report {
 /// One named sequence of points. NaN or infinite values are gaps: a line breaks there, a point is left out.
 /// A series named "truth" is drawn apart from the others (dashed, in the colour of the text).
 struct Series {
-  enum class Mark { line, points, steps };  ///< steps: the value holds until the next x
+  enum class Mark { kLine, kPoints, kSteps };  ///< kSteps: the value holds until the next x
   std::string name;
-  Mark mark = Mark::line;
+  Mark mark = Mark::kLine;
   std::vector<double> x = {}, y = {};
 };
 

@@ -19,7 +19,7 @@ Page full_page(const std::string& name) {
                       .x_label = name,
                       .y_label = name,
                       .bands = {{name, {1}, {0}, {2}}},
-                      .series = {{name, Series::Mark::line, {1}, {1}}}}},
+                      .series = {{name, Series::Mark::kLine, {1}, {1}}}}},
           .tables = {{name, {name, "value"}, {{name, "1.5"}}}},
           .notes = {name}};
 }
@@ -69,7 +69,7 @@ TEST(Page, EscapesEveryText) {
 
 TEST(Page, LoadsNothing) {
   const std::string text = markup(html(full_page("name")));
-  for (const std::string part :
+  for (const char* part :
        {"src=", "href=", "srcset=", "action=", " data=", "<link", "<iframe", "<object", "http:", "https:", "url("})
     EXPECT_EQ(text.find(part), std::string::npos) << part;
   EXPECT_EQ(style_text().find("url("), std::string_view::npos);
@@ -95,7 +95,7 @@ TEST(Page, PlacesEveryChartOrSaysThatThereAreNone) {
 
 TEST(Page, LeavesOutWhatIsEmpty) {
   const std::string text = markup(html({.title = "Nothing"}));
-  for (const std::string part : {"<h2", "<figure", "<table", "<pre", "<ul", "<dl", "class=\"summary\""})
+  for (const char* part : {"<h2", "<figure", "<table", "<pre", "<ul", "<dl", "class=\"summary\""})
     EXPECT_EQ(text.find(part), std::string::npos) << part;
 }
 

@@ -17,7 +17,7 @@ class Curve {
   Curve(std::string name, Series::Mark mark, bool angle = false)
       : series_{.name = std::move(name), .mark = mark}, angle_(angle) {}
   void add(double x, double y) {
-    if (angle_ && series_.mark == Series::Mark::line && !series_.y.empty() && std::abs(y - series_.y.back()) > kPi)
+    if (angle_ && series_.mark == Series::Mark::kLine && !series_.y.empty() && std::abs(y - series_.y.back()) > kPi)
       push(x, kNaN);
     push(x, y);
   }
@@ -34,7 +34,7 @@ class Curve {
 
 /// All seen measurements of one observation column.
 Series measurements(const Recording& recording, std::size_t column, const std::string& name) {
-  Curve curve(name, Series::Mark::points);
+  Curve curve(name, Series::Mark::kPoints);
   for (const ObservedStep& step : recording.steps)
     for (const auto& row : step.rows)
       if (row.seen(column)) curve.add(step.t, row[column]);
@@ -45,8 +45,8 @@ Chart state_chart(const RunRecord& record, std::size_t d, const Recording& recor
   const Quantity& state = record.states[d];
   Chart chart{.title = state.name, .x_label = "t", .y_label = with_unit(state.name, state.unit)};
   Band band{.name = "estimate ± 2 sd"};
-  Curve estimate("estimate", Series::Mark::line, state.angle);
-  Curve known("truth", Series::Mark::line, state.angle);
+  Curve estimate("estimate", Series::Mark::kLine, state.angle);
+  Curve known("truth", Series::Mark::kLine, state.angle);
   for (const EstimateRow& row : record.rows) {
     const Moments& m = row.states[d];
     band.x.push_back(row.t);
@@ -82,11 +82,11 @@ Chart track_chart(const RunRecord& record, std::size_t ix, std::size_t iy, const
               .x_label = with_unit("x", record.states[ix].unit),
               .y_label = with_unit("y", record.states[iy].unit),
               .equal_axes = true};
-  Curve estimate("estimate", Series::Mark::line);
+  Curve estimate("estimate", Series::Mark::kLine);
   for (const EstimateRow& row : record.rows) estimate.add(row.states[ix].mean, row.states[iy].mean);
   chart.series.push_back(estimate.take());
   if (truth != nullptr && truth->known[ix] && truth->known[iy]) {
-    Curve known("truth", Series::Mark::line);
+    Curve known("truth", Series::Mark::kLine);
     for (const auto& [t, x] : truth->states) known.add(x[ix], x[iy]);
     chart.series.push_back(known.take());
   }
@@ -119,14 +119,14 @@ std::vector<Chart> charts_of(const RunRecord& record, const Summary& summary, co
                       .series = {measurements(recording, j, column.name)}});
   }
   for (std::size_t f = 0; f < record.function_labels.size(); ++f)
-    charts.push_back(over_time(record, record.function_labels[f], record.function_labels[f], Series::Mark::line,
+    charts.push_back(over_time(record, record.function_labels[f], record.function_labels[f], Series::Mark::kLine,
                                [f](const EstimateRow& row) { return row.functions[f]; }));
-  charts.push_back(over_time(record, "Effective sample size", "particles", Series::Mark::line,
+  charts.push_back(over_time(record, "Effective sample size", "particles", Series::Mark::kLine,
                              [](const EstimateRow& row) { return row.report.ess; }));
   if (!std::isnan(summary.acceptance))
-    charts.push_back(over_time(record, "Acceptance", "accepted / offered", Series::Mark::line,
+    charts.push_back(over_time(record, "Acceptance", "accepted / offered", Series::Mark::kLine,
                                [](const EstimateRow& row) { return row.report.acceptance; }));
-  charts.push_back(over_time(record, "Log evidence of each step", "nat", Series::Mark::points,
+  charts.push_back(over_time(record, "Log evidence of each step", "nat", Series::Mark::kPoints,
                              [](const EstimateRow& row) { return row.report.log_evidence; }));
   return charts;
 }

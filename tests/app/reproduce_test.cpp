@@ -1,7 +1,6 @@
 // The papers' items: what `mote reproduce` leaves, and that its comparisons can fail.
 
 #include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
 
 #include "mote/app/reproduce/laboratory.hpp"
@@ -20,7 +19,8 @@ TEST(Reproduce, WritesComparisonPageAndFigures) {
   const Json comparison = Json::parse(slurp(scratch.path() / "r/comparison.json"));
   ASSERT_FALSE(comparison.empty());
   for (const Json& entry : comparison) {
-    for (const std::string key : {"item", "paper", "ours", "ratio", "holds", "note"}) EXPECT_TRUE(entry.contains(key)) << key;
+    for (const std::string key : {"item", "paper", "ours", "ratio", "holds", "note"})
+      EXPECT_TRUE(entry.contains(key)) << key;
     EXPECT_EQ(entry.size(), 6U);
     EXPECT_TRUE(entry["holds"].get<bool>()) << entry.dump(2);
   }
@@ -85,10 +85,14 @@ TEST(Reproduce, RefusesBrokenItemsByLine) {
     }
     return "";
   };
-  EXPECT_NE(refusal("colour = 3").find("item.toml:16: \"colour\": expected one of name, options, set"), std::string::npos) << refusal("colour = 3");
+  EXPECT_NE(refusal("colour = 3").find("item.toml:16: \"colour\": expected one of name, options, set"),
+            std::string::npos)
+      << refusal("colour = 3");
   EXPECT_NE(refusal("set = [").find("item.toml:"), std::string::npos);
-  EXPECT_NE(refusal("[[compare]]\nname = \"n\"\nkind = \"magic\"\nruns = [\"right\"]").find("mean-difference, rmse"), std::string::npos);
-  EXPECT_NE(refusal("[[compare]]\nname = \"n\"\nkind = \"rmse\"\nruns = [\"nobody\"]").find("names of the item's runs"), std::string::npos);
+  EXPECT_NE(refusal("[[compare]]\nname = \"n\"\nkind = \"magic\"\nruns = [\"right\"]").find("mean-difference, rmse"),
+            std::string::npos);
+  EXPECT_NE(refusal("[[compare]]\nname = \"n\"\nkind = \"rmse\"\nruns = [\"nobody\"]").find("names of the item's runs"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -46,10 +46,10 @@ Chart state_chart() {
       .y_label = "x",
       .bands = {{"estimate ± 2 sd", counted(n), table(n, [&](int i) { return estimate(i) - 2 * sd(i) + gap(i); }),
                  table(n, [&](int i) { return estimate(i) + 2 * sd(i) + gap(i); })}},
-      .series = {{"estimate", Series::Mark::line, counted(n), table(n, [&](int i) { return estimate(i) + gap(i); })},
-                 {"observation", Series::Mark::points, counted(n),
+      .series = {{"estimate", Series::Mark::kLine, counted(n), table(n, [&](int i) { return estimate(i) + gap(i); })},
+                 {"observation", Series::Mark::kPoints, counted(n),
                   table(n, [](int i) { return i % 9 == 0 ? kNan : level(i) + 4 * noise(7 * i); })},
-                 {"truth", Series::Mark::line, counted(n), table(n, level)}}};
+                 {"truth", Series::Mark::kLine, counted(n), table(n, level)}}};
 }
 
 Chart steps_chart() {
@@ -57,7 +57,7 @@ Chart steps_chart() {
   return {.title = "Effective sample size",
           .x_label = "t (step)",
           .y_label = "ESS (particles)",
-          .series = {{"ess", Series::Mark::steps, counted(n), table(n, [](int i) { return 500 + 450 * noise(i); })}}};
+          .series = {{"ess", Series::Mark::kSteps, counted(n), table(n, [](int i) { return 500 + 450 * noise(i); })}}};
 }
 
 Chart track_chart() {
@@ -68,9 +68,9 @@ Chart track_chart() {
   return {.title = "Track",
           .x_label = "x (km)",
           .y_label = "y (km)",
-          .series = {{"estimate", Series::Mark::line, table(n, [=](int i) { return x(i) + 0.004 * noise(i); }),
+          .series = {{"estimate", Series::Mark::kLine, table(n, [=](int i) { return x(i) + 0.004 * noise(i); }),
                       table(n, [=](int i) { return y(i) + 0.004 * noise(5 * i); })},
-                     {"truth", Series::Mark::line, table(n, x), table(n, y)}},
+                     {"truth", Series::Mark::kLine, table(n, x), table(n, y)}},
           .equal_axes = true};
 }
 
@@ -84,10 +84,10 @@ Chart error_chart() {
   return {.title = "Error against work",
           .x_label = "particles",
           .y_label = "rmse",
-          .series = {{"bootstrap", Series::Mark::line, particles, falling(9)},
-                     {"auxiliary", Series::Mark::line, particles, falling(5)},
-                     {"independent Metropolis–Hastings", Series::Mark::line, particles, falling(3)},
-                     {"EKF", Series::Mark::points, {10, 1000}, {4, 0}}},
+          .series = {{"bootstrap", Series::Mark::kLine, particles, falling(9)},
+                     {"auxiliary", Series::Mark::kLine, particles, falling(5)},
+                     {"independent Metropolis–Hastings", Series::Mark::kLine, particles, falling(3)},
+                     {"EKF", Series::Mark::kPoints, {10, 1000}, {4, 0}}},
           .log_x = true,
           .log_y = true};
 }
@@ -99,9 +99,9 @@ Chart long_chart() {
           .y_label = "log weight (nat)",
           .bands = {{"quantiles 5–95 %", counted(n), table(n, [](int i) { return std::sin(i / 9e3) - 1; }),
                      table(n, [](int i) { return std::sin(i / 9e3) + 1; })}},
-          .series = {{"sampled", Series::Mark::points, counted(n),
+          .series = {{"sampled", Series::Mark::kPoints, counted(n),
                       table(n, [](int i) { return std::sin(i / 9e3) + noise(i); })},
-                     {"mean", Series::Mark::line, counted(n),
+                     {"mean", Series::Mark::kLine, counted(n),
                       table(n, [](int i) { return std::sin(i / 9e3) + 0.2 * noise(3 * i); })}}};
 }
 
@@ -130,7 +130,7 @@ Page sample() {
                  {.title = "Nothing </script><b>&\"' Ω",
                   .x_label = "t (step)",
                   .y_label = "<i>y</i>",
-                  .series = {{"<u>all</u> gaps", Series::Mark::line, {1, 2}, {kNan, kNan}}}}},
+                  .series = {{"<u>all</u> gaps", Series::Mark::kLine, {1, 2}, {kNan, kNan}}}}},
       .tables = {{"Engines",
                   {"engine", "ns per particle step", "rmse", "agreement"},
                   {{"reference", "61.2", "1.52", "is the referee"},

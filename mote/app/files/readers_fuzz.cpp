@@ -23,7 +23,8 @@ void attempt(Read&& read) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
-  attempt([&] { mote::recording_from(mote::parse_table("fuzz.csv", text), mote::LocalLevel{}.columns(), "local-level"); });
+  attempt(
+      [&] { mote::recording_from(mote::parse_table("fuzz.csv", text), mote::LocalLevel{}.columns(), "local-level"); });
   attempt([&] { mote::recording_from(mote::parse_table("fuzz.csv", text), mote::Bearings{}.columns(), "bearings"); });
   attempt([&] { mote::truth_from(mote::parse_table("fuzz.csv", text), mote::Bearings{}.states()); });
   return 0;
