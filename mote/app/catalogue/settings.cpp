@@ -32,7 +32,7 @@ std::string words_for(Range range) {
   return "";
 }
 
-Settings::Settings(std::string where, std::vector<std::string> texts) : where_(std::move(where)) {
+Settings::Settings(std::string where, const std::vector<std::string>& texts) : where_(std::move(where)) {
   for (const std::string& text : texts) {
     const std::size_t sign = text.find('=');
     if (sign == std::string::npos || sign == 0)
@@ -81,11 +81,12 @@ long Settings::integer(const std::string& key, long fallback, long least, long m
 }
 
 void Settings::finish(const std::string& model, const std::string& known) const {
-  for (std::size_t i = 0; i < given_.size(); ++i)
-    if (!used_[i])
-      throw Refusal(ExitCode::kWrongUse,
-                    {where_, "--set " + given_[i].key, "a parameter of " + model + " (" + known + ")",
-                     "\"" + given_[i].key + "\"", "See mote models " + model + "."});
+  for (std::size_t i = 0; i < given_.size(); ++i) {
+    if (used_[i]) continue;
+    throw Refusal(ExitCode::kWrongUse, {where_, "--set " + given_[i].key,
+                                        fmt::format("a parameter of {} ({})", model, known),
+                                        fmt::format("\"{}\"", given_[i].key), "See mote models."});
+  }
 }
 
 }  // namespace mote

@@ -36,7 +36,7 @@ Json parsed(const std::string& path) {
   if (path.ends_with(".json")) {
     try {
       return Json::parse(text);
-    } catch (const Json::parse_error& error) {
+    } catch (const Json::exception& error) {
       throw Refusal(ExitCode::kBadData, {path, "", "JSON", error.what(), ""});
     }
   }
