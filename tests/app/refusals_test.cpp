@@ -134,6 +134,8 @@ const std::vector<Case> kFiles{
      R"(no\.toml: expected a file)"},
     {"MatricesBroken", kGood, "mote run linear-gaussian --data d.csv --set file=other.toml", 3,
      R"(other\.toml:1: expected TOML)", "F=[[1\n"},
+    {"MatricesInOtherLetters", kGood, "mote run linear-gaussian --data d.csv --set file=other.toml", 3,
+     R"(other\.toml:2: expected plain ASCII)", "F=[[1]]\n\xd0\xbb=1\n"},
     {"MatricesIncomplete", kGood, "mote run linear-gaussian --data d.csv --set file=other.toml", 3,
      R"("Q": expected a key of that name)", "F=[[1]]\n"},
     {"MatricesOfText", kGood, "mote run linear-gaussian --data d.csv --set file=other.toml", 3, R"("F": expected)",

@@ -40,6 +40,7 @@ Json parsed(const std::string& path) {
       throw Refusal(ExitCode::kBadData, {path, "", "JSON", error.what(), ""});
     }
   }
+  refuse_other_than_ascii(path, text);
   try {
     const toml::table table = toml::parse(text, path);
     return from_toml(table);

@@ -1,5 +1,6 @@
 #include "mote/app/files/text.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
@@ -25,6 +26,14 @@ std::string read_text(const std::string& path) {
   while (const std::size_t n = std::fread(buffer, 1, sizeof buffer, file.get())) text.append(buffer, n);
   if (std::ferror(file.get()) != 0) throw refuse(std::strerror(errno));
   return text;
+}
+
+void refuse_other_than_ascii(const std::string& path, std::string_view text) {
+  const auto found = std::find_if(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) > 127; });
+  if (found == text.end()) return;
+  const auto line = 1 + std::count(text.begin(), found, '\n');
+  throw Refusal(ExitCode::kBadData, {path + ":" + std::to_string(line), "", "plain ASCII text", "another character",
+                                     "Write names and comments without accents."});
 }
 
 std::optional<double> number_in(std::string_view text) {

@@ -12,6 +12,11 @@ namespace mote {
 /// error   Refusal (kBadData) when it is missing, a folder or unreadable
 std::string read_text(const std::string& path);
 
+/// Refuses a text with a byte above 127: the TOML library's tables of letters have holes that it may fall into.
+///
+/// error   Refusal (kBadData) naming file:line
+void refuse_other_than_ascii(const std::string& path, std::string_view text);
+
 /// The number that a text is, whole; "nan" gives NaN. Nothing when it is no number.
 std::optional<double> number_in(std::string_view text);
 

@@ -154,8 +154,10 @@ Comparison comparison_from(Fields fields, const std::vector<Run>& runs) {
 }
 
 toml::table parsed(const std::string& path) {
+  const std::string text = read_text(path);
+  refuse_other_than_ascii(path, text);
   try {
-    return toml::parse(read_text(path), path);
+    return toml::parse(text, path);
   } catch (const toml::parse_error& error) {
     throw Refusal(ExitCode::kBadData, {fmt::format("{}:{}", path, error.source().begin.line), "", "TOML",
                                        std::string(error.description()), ""});
