@@ -10,8 +10,12 @@
 
 namespace mote {
 
-/// Weight of a proposal by the mixtures over all parents:  w = p(y | x) sum_i p(x | x^i) / sum_i g(x | x^i, y); with g
-/// = p it is p(y | x). cost    O(N) a proposal when g is not p source  IMH-HW (12), IMH-OPT (17)
+/// Weight of a proposal by the mixtures over all parents; with g = p it is p(y | x).
+///
+///   w = p(y | x) sum_i p(x | x^i) / sum_i g(x | x^i, y)
+///
+/// cost    O(N) a proposal when g is not p
+/// source  docs/filters.md (F12); IMH-HW (12), IMH-OPT (17)
 struct MixtureWeight {
   template <class R, Model M, class G>
   static double log_ratio(const M& model, const G& proposal, Step t, const StateOf<M, R>& x, std::size_t,
@@ -34,8 +38,11 @@ struct MixtureWeight {
   }
 };
 
-/// Weight of a proposal x from parent k:  w = p(y | x) p(x | x^k) / (N g(k) g(x | x^k, y)); the division by N makes its
-/// mean the evidence. source  IMH-OPT (23)
+/// Weight of a proposal x from parent k; the division by N makes its mean the evidence.
+///
+///   w = p(y | x) p(x | x^k) / (N g(k) g(x | x^k, y))
+///
+/// source  docs/filters.md (F20); IMH-OPT (23)
 struct PairWeight {
   template <class R, Model M, class G>
   static double log_ratio(const M& model, const G& proposal, Step t, const StateOf<M, R>& x, std::size_t k,
@@ -50,12 +57,12 @@ struct PairWeight {
 /// states.
 ///
 ///   parents k ~ g(k), proposals x ~ g(. | x^k_{t-1}, y), Q + P N_b of them; weights by `Weight`
-///   estimates sum w f(x) / sum w over all proposals; evidence = mean w; the chains' last N states are the unweighted
-///   set
+///   estimates sum w f(x) / sum w over all proposals; evidence = mean w
+///   the chains' last N states are the unweighted set
 ///
 /// shape   N kept, Q >= N drawn, P chains
 /// cost    O(Q + P N_b) a step (times N for MixtureWeight with g not p); memory about (2 D + 3) 8 (Q + P N_b) bytes
-/// source  IMH-HW section 4, IMH-OPT section IV
+/// source  docs/filters.md (F11) to (F20), (F27); IMH-HW section 4, IMH-OPT section IV
 template <Model M, class R, class G, class Weight>
 class MetropolisFilter final : public Filter {
  public:
@@ -168,7 +175,8 @@ class MetropolisFilter final : public Filter {
     return {draw.index(n), 0};
   }
 
-  /// g(k) for the auxiliary filter: half uniform, half the likelihood of the parent moved with its noise at the median.
+  /// g(k) for the auxiliary filter: half uniform, half the likelihood of the parent moved with its noise at the median;
+  /// docs/filters.md (F21).
   void prepare_parents(Step t, Rows<R> y) {
     if (options_.parent_weights == ParentWeights::kUniform) return;
     struct Still {

@@ -32,7 +32,7 @@ struct Cloud {
 ///   a_i ~ w_i^exponent;  survivor j carries  mass * (W_J / A_J) / n   (equal weights when exponent = 1)
 ///
 /// shape   weights: (n,) linear, of the same particles, overwritten; not all zero
-/// source  IMH-OPT II-B
+/// source  docs/filters.md (F9), (F10); IMH-OPT II-B
 template <class R>
 void resample(Cloud<R>& cloud, std::size_t first, std::size_t n, double log_mass, const SelectionOptions& options,
               const Draws& draws) {
@@ -65,7 +65,7 @@ class Selector {
   virtual bool select(Cloud<R>& cloud, double ess, const Draws& draws) = 0;
 };
 
-/// SISR: resamples the whole set when its effective sample size is low.
+/// SISR: resamples the whole set when its effective sample size is low; docs/filters.md (F8).
 template <class R>
 class WholeSelector final : public Selector<R> {
  public:
@@ -83,7 +83,9 @@ class WholeSelector final : public Selector<R> {
 
 /// The distributed filter: exchanges particles between neighbouring groups, then resamples inside each group.
 ///
-/// source  PPF fig. 3.4; group weights are carried (properly weighted, evidence unbiased) or reset at each resampling
+/// Group weights are carried (properly weighted, evidence unbiased but for replace) or reset at each resampling.
+///
+/// source  docs/filters.md (F22) to (F24); PPF fig. 3.4
 template <class R>
 class GroupSelector final : public Selector<R> {
  public:
