@@ -1,6 +1,7 @@
 #pragma once
 /// The independent Metropolis-Hastings filter (IMH), which needs no resampling, and its auxiliary-variable form.
 
+#include <algorithm>
 #include <memory>
 
 #include "mote/base/permutation.hpp"
@@ -95,8 +96,7 @@ class MetropolisFilter final : public Filter {
     if (weighted_ == &set_) return;
     std::vector<Index> starts;
     if (options_.start == ChainStart::kWeighted && !report.collapsed) {
-      starts.resize(layout_.chains);
-      systematic(weights_, draws(t), starts);
+      starts = weighted_starts(t);
     }
     // the linear weights have served: their place takes the log uniforms
     draws(t).for_each(Purpose::kAccept, 0, weights_.size(),
@@ -115,6 +115,17 @@ class MetropolisFilter final : public Filter {
   static constexpr double kBurnInDistance = 0.01;  // total variation that `burn_in = auto` leaves
 
   Draws draws(Step t) const { return {seed_, static_cast<std::uint32_t>(t)}; }
+
+  /// Systematic draws by the weights of all proposals, dealt to the chains from a random one on: in order, each chain would start in
+  /// its own part of the cumulative sum, which depends on what that chain is about to visit.
+  std::vector<Index> weighted_starts(Step t) const {
+    std::vector<Index> starts(layout_.chains);
+    systematic(weights_, draws(t), starts);
+    auto block = draws(t).block(Purpose::kStart);
+    const std::size_t shift = block.particle(0).index(starts.size());
+    std::rotate(starts.begin(), starts.begin() + static_cast<std::ptrdiff_t>(shift), starts.end());
+    return starts;
+  }
 
   void propose_all(Step t, Rows<R> y) {
     layout_.burn_in = options_.burn_in.value_or(0);
@@ -213,9 +224,15 @@ class MetropolisFilter final : public Filter {
     weighted_ = &proposals_;
     total_ = judgement.total;
     report.ess = judgement.ess;
-    report.log_evidence =
-        report.collapsed ? -kInfinity : judgement.log_sum - std::log(static_cast<double>(proposals_.size()));
+    report.log_evidence = report.collapsed ? -kInfinity : judgement.log_sum + log_mean_share();
     return report;
+  }
+
+  /// log of the mean weight over the sum of all. With `burn_in = auto` the mean is over the Q alone: how many more were drawn depends on
+  /// their weights, and a mean stopped by its own terms is biased.
+  double log_mean_share() const {
+    const std::size_t n = options_.burn_in ? weights_.size() : layout_.draws;
+    return std::log(ordered_sum(n, [&](std::size_t j) { return weights_[j]; }) / total_ / static_cast<double>(n));
   }
 
   StepReport unweighted(const Particles<R>& x) {
