@@ -30,8 +30,9 @@ struct ChainReport {
 ///   accept proposal x^ after x with probability min(w(x^) / w(x), 1):   log u < log w(x^) - log w(x)
 ///
 /// shape   log_weights, log_uniforms: (Q + P N_b,), log_uniforms[j] decides on proposal j; not all weights zero
-///         starts: (P,) proposal that each chain starts from, or empty: the first that it visits. A chain passes its own start
-///         over, which was drawn by its weight and is no independent proposal: offered again it would bias what is kept.
+///         starts: (P,) proposal that each chain starts from, or empty: the first that it visits. A chain passes its
+///         own start over, which was drawn by its weight and is no independent proposal: offered again it would bias
+///         what is kept.
 /// cost    O(Q + P N_b), one comparison a proposal
 /// source  docs/filters.md (F13), (F14); IMH-HW (11), (16), (17)
 ChainReport run_chains(const ChainLayout& layout, std::span<const double> log_weights,

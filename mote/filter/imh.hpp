@@ -116,8 +116,8 @@ class MetropolisFilter final : public Filter {
 
   Draws draws(Step t) const { return {seed_, static_cast<std::uint32_t>(t)}; }
 
-  /// Systematic draws by the weights of all proposals, dealt to the chains from a random one on: in order, each chain would start in
-  /// its own part of the cumulative sum, which depends on what that chain is about to visit.
+  /// Systematic draws by the weights of all proposals, dealt to the chains from a random one on: in order, each chain
+  /// would start in its own part of the cumulative sum, which depends on what that chain is about to visit.
   std::vector<Index> weighted_starts(Step t) const {
     std::vector<Index> starts(layout_.chains);
     systematic(weights_, draws(t), starts);
@@ -228,8 +228,8 @@ class MetropolisFilter final : public Filter {
     return report;
   }
 
-  /// log of the mean weight over the sum of all. With `burn_in = auto` the mean is over the Q alone: how many more were drawn depends on
-  /// their weights, and a mean stopped by its own terms is biased.
+  /// log of the mean weight over the sum of all. With `burn_in = auto` the mean is over the Q alone: how many more were
+  /// drawn depends on their weights, and a mean stopped by its own terms is biased.
   double log_mean_share() const {
     const std::size_t n = options_.burn_in ? weights_.size() : layout_.draws;
     return std::log(ordered_sum(n, [&](std::size_t j) { return weights_[j]; }) / total_ / static_cast<double>(n));

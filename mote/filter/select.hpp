@@ -34,7 +34,8 @@ struct Cloud {
 ///
 /// shape   weights: linear, overwritten; not all zero. log_weights: (n,)
 /// source  IMH-OPT II-B
-inline std::vector<Index> draw_survivors(std::span<double> weights, std::span<double> log_weights, double log_mass, const SelectionOptions& options, const Draws& draws) {
+inline std::vector<Index> draw_survivors(std::span<double> weights, std::span<double> log_weights, double log_mass,
+                                         const SelectionOptions& options, const Draws& draws) {
   const bool plain = options.exponent == 1;
   const auto sum = [&] { return ordered_sum(weights.size(), [&](std::size_t i) { return weights[i]; }); };
   const double total = sum();
@@ -46,8 +47,9 @@ inline std::vector<Index> draw_survivors(std::span<double> weights, std::span<do
   std::fill(log_weights.begin(), log_weights.end(), spread);
   if (plain) return ancestors;
   const double selection = sum();
-    for (double& w : weights) w = std::pow(w, 1 / options.exponent - 1);  // w / a of the particle, up to the totals
-  for (std::size_t j = 0; j < ancestors.size(); ++j) log_weights[j] = spread + std::log(weights[ancestors[j]] * selection / total);
+  for (double& w : weights) w = std::pow(w, 1 / options.exponent - 1);  // w / a of the particle, up to the totals
+  for (std::size_t j = 0; j < ancestors.size(); ++j)
+    log_weights[j] = spread + std::log(weights[ancestors[j]] * selection / total);
   return ancestors;
 }
 
@@ -55,7 +57,8 @@ inline std::vector<Index> draw_survivors(std::span<double> weights, std::span<do
 ///
 /// shape   cloud.weights: linear, those of [first, first + n) not all zero; overwritten
 template <class R>
-void resample(Cloud<R>& cloud, std::size_t first, std::size_t n, double log_mass, const SelectionOptions& options, const Draws& draws) {
+void resample(Cloud<R>& cloud, std::size_t first, std::size_t n, double log_mass, const SelectionOptions& options,
+              const Draws& draws) {
   const auto part = [&](std::vector<double>& all) { return std::span<double>(all).subspan(first, n); };
   std::vector<Index> ancestors = draw_survivors(part(cloud.weights), part(cloud.log_weights), log_mass, options, draws);
   for (Index& a : ancestors) a += static_cast<Index>(first);
@@ -123,8 +126,10 @@ class GroupSelector final : public Selector<R> {
     return true;
   }
 
-  /// Own particles and received ones compete for the group's n places, whatever the effective sample size: n + M must become n again.
-  bool select_appended(Cloud<R>& cloud, std::size_t first, std::size_t n, const Inbox<R>& inbox, std::size_t k, const Draws& draws) {
+  /// Own particles and received ones compete for the group's n places, whatever the effective sample size: n + M must
+  /// become n again.
+  bool select_appended(Cloud<R>& cloud, std::size_t first, std::size_t n, const Inbox<R>& inbox, std::size_t k,
+                       const Draws& draws) {
     const std::size_t m = inbox.count;
     Cloud<R> both(cloud.x.dimensions(), n + m);
     for (std::size_t d = 0; d < cloud.x.dimensions(); ++d) {

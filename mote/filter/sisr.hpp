@@ -34,7 +34,8 @@ class ImportanceFilter final : public Filter {
 
   StepReport predict(Step t) override {
     move(model_, t, cloud_.x, draws(t));
-    // carried weights stay as they are: after a w / a selection their sum is 1 only in the mean, and belongs to the evidence
+    // carried weights stay as they are: after a w / a selection their sum is 1 only in the mean, and belongs to the
+    // evidence
     return judged(judge(cloud_.log_weights, cloud_.weights), false);
   }
 

@@ -83,9 +83,9 @@ long Settings::integer(const std::string& key, long fallback, long least, long m
 void Settings::finish(const std::string& model, const std::string& known) const {
   for (std::size_t i = 0; i < given_.size(); ++i) {
     if (used_[i]) continue;
-    throw Refusal(ExitCode::kWrongUse, {where_, "--set " + given_[i].key,
-                                        fmt::format("a parameter of {} ({})", model, known),
-                                        fmt::format("\"{}\"", given_[i].key), "See mote models."});
+    throw Refusal(ExitCode::kWrongUse,
+                  {where_, "--set " + given_[i].key, fmt::format("a parameter of {} ({})", model, known),
+                   fmt::format("\"{}\"", given_[i].key), "See mote models."});
   }
 }
 
