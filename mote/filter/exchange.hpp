@@ -41,7 +41,7 @@ inline std::vector<Index> extreme(std::span<const double> log_weights, std::size
     const double la = log_weights[a];
     const double lb = log_weights[b];
     if (la != lb) return heaviest ? la > lb : la < lb;
-    return a < b;
+    return heaviest ? a < b : a > b;  // so that heaviest and lightest never share a particle
   };
   std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(m), order.end(), before);
   order.resize(m);

@@ -104,6 +104,7 @@ class GroupSelector final : public Selector<R> {
     const std::size_t n = cloud.size();
     const Ring ring(n, groups_.groups);
     const Inbox<R> inbox = send(cloud.x, cloud.log_weights, ring, groups_);
+    if (groups_.exchange == Exchange::kReplace) share_out_what_was_lost(cloud.log_weights);
     bool any = false;
     for (std::size_t k = 0; k < ring.groups(); ++k)
       any = select_group(cloud, ring.first(k), ring.size(k), inbox, k, draws) || any;
@@ -112,6 +113,13 @@ class GroupSelector final : public Selector<R> {
   }
 
  private:
+  /// The weight of replaced particles goes to all others in proportion.
+  static void share_out_what_was_lost(std::span<double> log_weights) {
+    const double left = log_sum_exp(log_weights).log_sum;
+    if (!std::isfinite(left)) return;
+    for (double& l : log_weights) l -= left;
+  }
+
   bool select_group(Cloud<R>& cloud, std::size_t first, std::size_t n, const Inbox<R>& inbox, std::size_t k,
                     const Draws& draws) {
     if (groups_.exchange == Exchange::kAppend && groups_.groups > 1)

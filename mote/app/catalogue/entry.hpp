@@ -21,12 +21,12 @@ class CatalogueModelOf final : public CatalogueModel {
   Simulation simulate(Step steps, std::uint64_t seed) const override {
     Simulation all;
     const Row<double> inputs = blank_row(model_);
-    auto prior = Draws{seed, 0}.block(Purpose::kPrior);
+    auto prior = Draws{seed, 0}.block(Purpose::kTruth);
     auto draw = prior.particle(0);
     StateOf<M, double> x = model_.template initial<double>(draw);
     for (Step t = 1; t <= steps; ++t) {
       const Draws draws{seed, static_cast<std::uint32_t>(t)};
-      auto moves = draws.block(Purpose::kMove);
+      auto moves = draws.block(Purpose::kTruth);
       auto observations = draws.block(Purpose::kObserve);
       auto move_draw = moves.particle(0);
       auto observe_draw = observations.particle(0);

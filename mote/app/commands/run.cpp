@@ -69,7 +69,12 @@ ExitCode run_run(const Arguments& arguments) {
   if (summary_file != nullptr) summary_file->write(summary_json(record, summary).dump(2) + "\n");
   if (report != nullptr) report->write(report_for(job, record, summary));
   outputs.commit();
-  if (arguments.text("--out") != "-" && arguments.text("--summary") != "-") print_summary(record, summary);
+  const bool output_taken = [&] {
+    for (const std::string name : {"--out", "--summary", "--report", "--dump-particles"})
+      if (arguments.text(name) == "-" || arguments.text(name) == "/dev/stdout") return true;
+    return false;
+  }();
+  if (!output_taken) print_summary(record, summary);
   return ExitCode::kDone;
 }
 

@@ -31,7 +31,12 @@ std::string followed(const std::string& path) {
 
 }  // namespace
 
-Output::Output(std::string path) : path_(std::move(path)), target_(path_ == "-" ? "/dev/stdout" : path_) {
+Output::Output(std::string path) : path_(std::move(path)), target_(path_) {
+  if (path_ == "-" || path_ == "/dev/stdout") {  // whatever it is, a file that the shell opened is not ours to replace
+    file_ = fdopen(dup(STDOUT_FILENO), "wb");
+    if (file_ == nullptr) fail(errno);
+    return;
+  }
   if (written_in_place(target_)) {
     std::error_code error;
     if (fs::is_directory(target_, error)) fail(EISDIR);
@@ -87,8 +92,8 @@ void Output::fail(int error) const {
 
 Output* OutputSet::open(const std::string& path) {
   if (path.empty()) return nullptr;
-  const std::string real = path == "-" ? path : followed(path);
-  if (!written_in_place(real) && std::find(paths_.begin(), paths_.end(), real) != paths_.end())
+  const std::string real = path == "-" || path == "/dev/stdout" ? "-" : followed(path);
+  if ((real == "-" || !written_in_place(real)) && std::find(paths_.begin(), paths_.end(), real) != paths_.end())
     throw Refusal(ExitCode::kWrongUse, {path, "", "every output in a file of its own", "the same file for two outputs",
                                         "Name another file."});
   paths_.push_back(real);
