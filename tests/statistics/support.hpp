@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <memory>
 #include <string>
@@ -107,6 +108,11 @@ inline Sample evidence_ratios(const Maker& maker, const std::vector<Quantity>& s
     ratios.values.push_back(std::exp(trace(*filter, states, recording).log_evidence - exact));
   }
   return ratios;
+}
+
+/// Prints a measured figure: what the README and the issues quote comes from these lines.
+inline void measured(const std::string& what, double value, double error) {
+  std::printf("[measured] %-64s %9.4f +- %.4f\n", what.c_str(), value, error);
 }
 
 /// Mean square over the steps of a difference to exact means of component d.
