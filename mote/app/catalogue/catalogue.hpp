@@ -1,6 +1,7 @@
 #pragma once
 /// The catalogue: every model of the program, with its type behind one face.
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -20,6 +21,9 @@ struct Simulation {
   std::vector<Row<double>> rows;            ///< (T,)
 };
 
+/// Takes one simulated step: its true state and its row; false ends the simulation.
+using SimulationVisit = std::function<bool(Step t, std::span<const double> state, const Row<double>& row)>;
+
 /// A model with its parameters set, whatever its type.
 class CatalogueModel {
  public:
@@ -28,7 +32,10 @@ class CatalogueModel {
   virtual std::vector<Column> columns() const = 0;
   virtual std::vector<ValueSource> sources() const = 0;
   virtual std::unique_ptr<Filter> reference_filter(const Plan& plan, const std::string& where) const = 0;
-  virtual Simulation simulate(Step steps, std::uint64_t seed) const = 0;
+  /// Draws a recording step by step, in no more memory than a step needs.
+  virtual void simulate(Step steps, std::uint64_t seed, const SimulationVisit& visit) const = 0;
+  /// Draws a whole recording.
+  Simulation simulate(Step steps, std::uint64_t seed) const;
 };
 
 /// A name with what it means, for lists.
@@ -49,7 +56,11 @@ struct CatalogueEntry {
   std::vector<std::string> example_columns;  ///< the columns of its data, at default settings
   std::vector<Quantity> example_states;
   /// Makes the model from `--set` settings; `header` holds the data's column names (a model may size itself by them).
-  std::unique_ptr<CatalogueModel> (*make)(const Settings& settings, std::span<const std::string> header);
+  std::unique_ptr<CatalogueModel> make(const Settings& settings, std::span<const std::string> header) const {
+    return build(name, settings, header);
+  }
+  std::unique_ptr<CatalogueModel> (*build)(const std::string& model_name, const Settings& settings,
+                                           std::span<const std::string> header);
 };
 
 /// All models, in the order of models.txt.

@@ -1,5 +1,8 @@
 #pragma once
+#include <algorithm>
+
 #include "mote/app/catalogue/entry.hpp"
+#include "mote/app/files/text.hpp"
 #include "mote/model/doa.hpp"
 
 namespace mote {
@@ -13,12 +16,13 @@ inline CatalogueEntry doa_entry() {
                       {},
                       {},
                       nullptr};
-  made.make = [](const Settings& settings, std::span<const std::string> header) {
+  made.build = [](const std::string& model_name, const Settings& settings, std::span<const std::string> header) {
     Doa model{parameters_from<Doa>(settings)};
-    settings.finish("doa", names_of(parameters_of<Doa>()));
-    std::size_t frame = 0;
-    for (const std::string& column : header) frame += column.starts_with("doa") ? 1 : 0;
-    model.frame = frame > 0 ? frame : 1;
+    settings.finish(model_name, parameter_names_of<Doa>());
+    const auto frame = std::count_if(header.begin(), header.end(), [](const std::string& column) {
+      return column.starts_with("doa") && integer_in(std::string_view(column).substr(3));
+    });
+    model.frame = frame > 0 ? static_cast<std::size_t>(frame) : 1;
     return wrapped(std::move(model));
   };
   return shown(std::move(made), Doa{});

@@ -18,10 +18,11 @@ class CatalogueModelOf final : public CatalogueModel {
     return make_reference_filter(model_, plan, where);
   }
 
-  Simulation simulate(Step steps, std::uint64_t seed) const override {
-    Simulation all;
+  using CatalogueModel::simulate;
+  void simulate(Step steps, std::uint64_t seed, const SimulationVisit& visit) const override {
     const Row<double> inputs = blank_row(model_);
-    auto prior = Draws{seed, 0}.block(Purpose::kTruth);
+    std::vector<double> shown;
+    auto prior = Draws{seed, 0}.block(Purpose::kPrior);
     auto draw = prior.particle(0);
     StateOf<M, double> x = model_.template initial<double>(draw);
     for (Step t = 1; t <= steps; ++t) {
@@ -31,10 +32,9 @@ class CatalogueModelOf final : public CatalogueModel {
       auto move_draw = moves.particle(0);
       auto observe_draw = observations.particle(0);
       x = model_.template next<double>(t, x, move_draw);
-      all.states.emplace_back(x.begin(), x.end());
-      all.rows.push_back(model_.template observe<double>(t, x, inputs, observe_draw));
+      shown.assign(x.begin(), x.end());
+      if (!visit(t, shown, model_.template observe<double>(t, x, inputs, observe_draw))) return;
     }
-    return all;
   }
 
  private:
@@ -71,9 +71,12 @@ typename M::Parameters parameters_from(const Settings& settings) {
   return parameters;
 }
 
-inline std::string names_of(const std::vector<ParameterInfo>& parameters) {
-  std::string names;
-  for (const auto& p : parameters) names += (names.empty() ? "" : ", ") + p.name;
+/// Names of a model's parameters, and of what else it can be set to.
+template <class M>
+std::vector<std::string> parameter_names_of(const std::vector<std::string>& others = {}) {
+  std::vector<std::string> names;
+  for (const auto& p : M::kParameters) names.emplace_back(p.name);
+  names.insert(names.end(), others.begin(), others.end());
   return names;
 }
 
@@ -94,9 +97,9 @@ CatalogueEntry shown(CatalogueEntry entry, const M& model) {
 template <Observable M>
 CatalogueEntry entry(std::string name, std::string meaning) {
   CatalogueEntry made{std::move(name), std::move(meaning), parameters_of<M>(), proposals_of<M>(), {}, {}, nullptr};
-  made.make = [](const Settings& settings, std::span<const std::string>) {
+  made.build = [](const std::string& model_name, const Settings& settings, std::span<const std::string>) {
     M model{parameters_from<M>(settings)};
-    settings.finish("this model", names_of(parameters_of<M>()));
+    settings.finish(model_name, parameter_names_of<M>());
     return wrapped(std::move(model));
   };
   return shown(std::move(made), M{});

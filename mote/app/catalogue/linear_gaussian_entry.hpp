@@ -19,9 +19,9 @@ inline CatalogueEntry linear_gaussian_entry() {
   made.parameters.push_back({"file", "", "", "a TOML or JSON file",
                              "matrices F, Q, H, R, vector mean and matrix covariance of x_0; optional lists states and "
                              "observations of names"});
-  made.make = [](const Settings& settings, std::span<const std::string>) {
+  made.build = [](const std::string& model_name, const Settings& settings, std::span<const std::string>) {
     const auto file = settings.text("file");
-    settings.finish("linear-gaussian", "file");
+    settings.finish(model_name, {"file"});
     if (!file)
       throw Refusal(ExitCode::kWrongUse,
                     {settings.where(), "--set file", "the TOML or JSON file with F, Q, H, R, mean and covariance",

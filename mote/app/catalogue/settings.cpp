@@ -1,24 +1,14 @@
 #include "mote/app/catalogue/settings.hpp"
 
-#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "mote/app/files/text.hpp"
+#include "mote/app/terminal/suggestion.hpp"
 #include "mote/base/refusal.hpp"
 
 namespace mote {
-namespace {
-
-template <class T>
-std::optional<T> whole(const std::string& text) {
-  T value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-}  // namespace
 
 std::string words_for(Range range) {
   switch (range) {
@@ -61,7 +51,7 @@ std::optional<std::string> Settings::text(const std::string& key) const {
 double Settings::number(const std::string& key, double fallback, Range range) const {
   const auto given = text(key);
   if (!given) return fallback;
-  const auto value = whole<double>(*given);
+  const auto value = number_in(*given);
   const bool fits = value && std::isfinite(*value) &&
                     (range == Range::kAny || *value > 0 || (range == Range::kNotNegative && *value == 0));
   if (!fits)
@@ -73,20 +63,19 @@ double Settings::number(const std::string& key, double fallback, Range range) co
 long Settings::integer(const std::string& key, long fallback, long least, long most) const {
   const auto given = text(key);
   if (!given) return fallback;
-  const auto value = whole<long>(*given);
+  const auto value = integer_in(*given);
   if (!value || *value < least || *value > most)
     throw Refusal(ExitCode::kWrongUse, {where_, "--set " + key, fmt::format("an integer from {} to {}", least, most),
                                         "\"" + *given + "\"", fmt::format("Its default is {}.", fallback)});
-  return *value;
+  return static_cast<long>(*value);
 }
 
-void Settings::finish(const std::string& model, const std::string& known) const {
-  for (std::size_t i = 0; i < given_.size(); ++i) {
-    if (used_[i]) continue;
-    throw Refusal(ExitCode::kWrongUse,
-                  {where_, "--set " + given_[i].key, fmt::format("a parameter of {} ({})", model, known),
-                   fmt::format("\"{}\"", given_[i].key), "See mote models."});
-  }
+void Settings::finish(const std::string& model, const std::vector<std::string>& known) const {
+  for (std::size_t i = 0; i < given_.size(); ++i)
+    if (!used_[i])
+      throw Refusal(ExitCode::kWrongUse,
+                    {where_, "--set", fmt::format("a parameter of {} ({})", model, fmt::join(known, ", ")),
+                     "\"" + given_[i].key + "\"", hint(given_[i].key, known, "See mote models " + model + ".")});
 }
 
 }  // namespace mote

@@ -22,7 +22,7 @@ class Settings {
   /// The integer given for a key, within [least, most], or the fallback.
   long integer(const std::string& key, long fallback, long least, long most) const;
   /// Refuses keys that nobody asked for; `known` lists those there are.
-  void finish(const std::string& model, const std::string& known) const;
+  void finish(const std::string& model, const std::vector<std::string>& known) const;
 
   const std::string& where() const { return where_; }
 

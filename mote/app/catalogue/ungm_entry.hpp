@@ -15,10 +15,11 @@ inline CatalogueEntry ungm_entry() {
                       nullptr};
   made.parameters.push_back(
       {"copies", "", "1", "1 or 2", "independent copies: states x, y and observations y1, y2 when 2"});
-  made.make = [](const Settings& settings, std::span<const std::string>) -> std::unique_ptr<CatalogueModel> {
+  made.build = [](const std::string& model_name, const Settings& settings,
+                  std::span<const std::string>) -> std::unique_ptr<CatalogueModel> {
     const long copies = settings.integer("copies", 1, 1, 2);
     const UngmParameters parameters = parameters_from<Ungm<1>>(settings);
-    settings.finish("ungm", names_of(parameters_of<Ungm<1>>()) + ", copies");
+    settings.finish(model_name, parameter_names_of<Ungm<1>>({"copies"}));
     if (copies == 2) return wrapped(Ungm<2>{parameters});
     return wrapped(Ungm<1>{parameters});
   };

@@ -44,8 +44,8 @@ class Arguments {
   /// The text of an option, or its default.
   std::string text(const std::string& name) const;
   std::vector<std::string> list(const std::string& name) const;
-  /// An integer in [least, most].
-  long long integer(const std::string& name, long long least, long long most) const;
+  /// An integer in [least, most]; `other` names what else may be given ("auto, or ").
+  long long integer(const std::string& name, long long least, long long most, const std::string& other = "") const;
   double number(const std::string& name, double least, double most) const;
   /// The place of the option's text among the choices.
   std::size_t choice(const std::string& name, const std::vector<std::string>& choices) const;
@@ -53,6 +53,8 @@ class Arguments {
   std::string required(const std::string& name, const std::string& expected, const std::string& next) const;
 
  private:
+  std::string pass_default(const std::string& name) const;
+
   std::string where_, command_line_;
   std::map<std::string, std::vector<std::string>> given_;
   std::map<std::string, std::string> fallbacks_;

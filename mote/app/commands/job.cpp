@@ -1,27 +1,17 @@
 #include "mote/app/commands/job.hpp"
 
 #include <algorithm>
-#include <fstream>
 
 #include <fmt/format.h>
 
+#include "mote/app/commands/memory.hpp"
 #include "mote/app/files/recording_file.hpp"
+#include "mote/app/files/text.hpp"
 #include "mote/base/refusal.hpp"
 #include "mote/report/run_page.hpp"
 
 namespace mote {
 namespace {
-
-/// Memory that a new program can have, bytes; infinity where the system does not say.
-double available_memory() {
-  std::ifstream info("/proc/meminfo");
-  std::string key;
-  double kilobytes = 0;
-  std::string unit;
-  while (info >> key >> kilobytes >> unit)
-    if (key == "MemAvailable:") return kilobytes * 1024;
-  return kInfinity;
-}
 
 void check_memory(const Plan& plan, std::size_t dimensions, const std::string& where) {
   const double need = bytes_needed(plan, dimensions);
@@ -37,7 +27,7 @@ std::string note_of_unused(const Table& table, const std::vector<std::string>& r
   const auto unused = unused_columns(table, read);
   return unused.empty() ? ""
                         : fmt::format("{}: note: nothing reads the column{} {}.", table.path,
-                                      unused.size() > 1 ? "s" : "", fmt::join(unused, ", "));
+                                      unused.size() > 1 ? "s" : "", quoted(fmt::format("{}", fmt::join(unused, ","))));
 }
 
 }  // namespace
@@ -60,6 +50,9 @@ Job load_job(const std::string& model, const std::string& data_path, const std::
   names.clear();
   for (const Quantity& state : job.model->states()) names.push_back(state.name);
   job.truth = truth_from(truth, job.model->states());
+  if (std::none_of(job.recording.steps.begin(), job.recording.steps.end(),
+                   [&](const ObservedStep& step) { return job.truth->states.contains(step.t); }))
+    job.notes.push_back(truth_path + ": note: no time t of the truth is in the data, so nothing is scored.");
   if (auto note = note_of_unused(truth, names); !note.empty()) job.notes.push_back(std::move(note));
   return job;
 }
@@ -68,7 +61,14 @@ RunRequest request_for(const Job& job, const std::vector<std::string>& estimates
   RunRequest request;
   request.states = job.model->states();
   request.sources = job.model->sources();
-  for (const std::string& text : estimates) request.estimands.push_back(parse_estimand(text, request.sources, where));
+  for (std::string text : estimates) {
+    std::erase(text, ' ');
+    for (const Estimand& other : request.estimands)
+      if (other.label == text)
+        throw Refusal(ExitCode::kWrongUse,
+                      {where, "--estimate", "every function once", text + " twice", "Pass it once."});
+    request.estimands.push_back(parse_estimand(text, request.sources, where));
+  }
   return request;
 }
 

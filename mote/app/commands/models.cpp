@@ -23,8 +23,8 @@ void print_entry(const CatalogueEntry& entry) {
   for (const Quantity& s : entry.example_states) fmt::print("  {:<18}{}\n", s.name, s.unit);
   fmt::print("\ndata columns\n  t,{}\n\nparameters (--set name=value)\n", fmt::join(entry.example_columns, ","));
   for (const ParameterInfo& p : entry.parameters)
-    fmt::print("  {:<12}[{}{}{}]  {} ({})\n", p.name, p.fallback, p.unit.empty() ? "" : " ", p.unit, p.meaning,
-               p.allowed);
+    fmt::print("  {:<12}[{}{}{}]  {} ({})\n", p.name, p.fallback.empty() ? "none" : p.fallback,
+               p.unit.empty() ? "" : " ", p.unit, p.meaning, p.allowed);
   fmt::print("\nproposals (--proposal NAME)\n");
   for (const Named& g : entry.proposals) fmt::print("  {:<18}{}\n", g.name, g.meaning);
 }

@@ -1,5 +1,7 @@
 #include "mote/app/commands/plan_options.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "mote/filter/particles.hpp"
@@ -7,9 +9,10 @@
 namespace mote {
 namespace {
 
-const std::vector<std::string> kFilters{"sisr", "imh", "auxiliary", "distributed", "sqmc", "ekf", "ukf"};
-constexpr std::size_t kFiltersNow = 4;
-const std::vector<std::string> kEngines{"reference", "simd", "pipeline", "mpi"};
+const std::vector<std::string> kFilters{"sisr", "imh", "auxiliary", "distributed"};
+const std::vector<std::string> kFiltersLater{"sqmc", "ekf", "ukf"};
+const std::vector<std::string> kEngines{"reference"};
+const std::vector<std::string> kEnginesLater{"simd", "pipeline", "mpi"};
 constexpr long long kMost = static_cast<long long>(kMostParticles);
 
 std::vector<std::string> scheme_names() {
@@ -23,17 +26,18 @@ void refuse_what_is_not_there(const Arguments& arguments) {
     if (arguments.given(name))
       throw Refusal(ExitCode::kWrongUse, fmt::format("{}: {}: this version of mote does not have it yet. Leave it out.",
                                                      arguments.where(), name));
-  const std::size_t engine = arguments.choice("--engine", kEngines);
-  if (engine != 0)
+  const std::string engine = arguments.text("--engine");
+  if (std::find(kEnginesLater.begin(), kEnginesLater.end(), engine) != kEnginesLater.end())
     throw Refusal(
         ExitCode::kWrongUse,
         fmt::format("{}: --engine {}: this version of mote does not have that engine yet. Pass --engine reference.",
-                    arguments.where(), kEngines[engine]));
-  const std::size_t filter = arguments.choice("--filter", kFilters);
-  if (filter >= kFiltersNow)
+                    arguments.where(), engine));
+  arguments.choice("--engine", kEngines);
+  const std::string filter = arguments.text("--filter");
+  if (std::find(kFiltersLater.begin(), kFiltersLater.end(), filter) != kFiltersLater.end())
     throw Refusal(ExitCode::kWrongUse, fmt::format("{}: --filter {}: this version of mote does not have that filter "
-                                                   "yet. Pass --filter sisr, imh, auxiliary or distributed.",
-                                                   arguments.where(), kFilters[filter]));
+                                                   "yet. Pass --filter {}.",
+                                                   arguments.where(), filter, fmt::join(kFilters, ", ")));
 }
 
 ChainOptions chain_from(const Arguments& arguments, FilterKind filter) {
@@ -46,7 +50,7 @@ ChainOptions chain_from(const Arguments& arguments, FilterKind filter) {
   if (arguments.text("--burn-in") == "auto") {
     chain.burn_in.reset();
   } else {
-    chain.burn_in = static_cast<std::size_t>(arguments.integer("--burn-in", 0, kMost));
+    chain.burn_in = static_cast<std::size_t>(arguments.integer("--burn-in", 0, kMost, "auto, or "));
   }
   if (arguments.given("--improved")) {
     if (filter != FilterKind::kImh && filter != FilterKind::kAuxiliary)
@@ -129,6 +133,30 @@ Plan plan_from(const Arguments& arguments) {
   if (arguments.given("--threads")) arguments.integer("--threads", 1, 4096);
   check(plan, arguments.where());
   return plan;
+}
+
+std::vector<std::string> notes_on_unread(const Arguments& arguments, const Plan& plan) {
+  const bool chains = plan.filter == FilterKind::kImh || plan.filter == FilterKind::kAuxiliary;
+  const bool groups = plan.filter == FilterKind::kDistributed;
+  std::vector<std::string> notes;
+  const auto note = [&](bool unread, const std::vector<std::string>& options, const std::string& reason) {
+    for (const std::string& option : options)
+      if (unread && arguments.given(option))
+        notes.push_back(fmt::format("{}: note: {} is not read: {}.", arguments.where(), option, reason));
+  };
+  const std::string filter = fmt::format("--filter {}", name_of(plan.filter));
+  note(!chains, {"--draws", "--burn-in", "--chains", "--parents", "--chain-start", "--parent-weights"},
+       filter + " has no chains");
+  note(chains, {"--resampler", "--ess-threshold", "--selection-exponent"}, filter + " does not resample");
+  note(!groups, {"--groups", "--group-resampling", "--exchange", "--exchange-count", "--group-weights"},
+       filter + " has no groups");
+  note(groups && plan.groups.global, {"--exchange", "--exchange-count", "--group-weights"},
+       "--group-resampling global knows no groups");
+  note(groups && !plan.groups.global && plan.groups.exchange == Exchange::kNone, {"--exchange-count"},
+       "--exchange none exchanges nothing");
+  note(plan.chain.parent_weights == ParentWeights::kLookahead, {"--parents"},
+       "--parent-weights lookahead draws them by weight");
+  return notes;
 }
 
 }  // namespace mote

@@ -1,7 +1,7 @@
 #include "mote/app/files/matrices.hpp"
 
-#include <fstream>
-#include <sstream>
+#include <algorithm>
+#include <cctype>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -14,6 +14,21 @@ namespace mote {
 namespace {
 
 using Json = nlohmann::json;
+
+const std::string kKeys = "A linear-gaussian file has F, Q, H, R, mean and covariance.";
+
+/// The JSON library's message without its "[json.exception...] ".
+std::string without_tag(const std::string& message) {
+  const std::size_t end = message.find("] ");
+  return message.starts_with('[') && end != std::string::npos ? message.substr(end + 2) : message;
+}
+
+/// A name that can be part of a CSV header and of --estimate: letters, digits and _, a letter first.
+bool is_name(const std::string& name) {
+  return !name.empty() && std::isalpha(static_cast<unsigned char>(name.front())) != 0 &&
+         std::all_of(name.begin(), name.end(),
+                     [](unsigned char c) { return c < 128 && (std::isalnum(c) != 0 || c == '_'); });
+}
 
 Json from_toml(const toml::node& node) {
   if (const auto* table = node.as_table()) {
@@ -31,13 +46,12 @@ Json from_toml(const toml::node& node) {
   return nullptr;
 }
 
-Json parsed(const std::string& path) {
-  const std::string text = read_text(path);
+Json parsed(const std::string& path, const std::string& text) {
   if (path.ends_with(".json")) {
     try {
       return Json::parse(text);
     } catch (const Json::exception& error) {
-      throw Refusal(ExitCode::kBadData, {path, "", "JSON", error.what(), ""});
+      throw Refusal(ExitCode::kBadData, {path, "", "JSON with finite numbers", without_tag(error.what()), kKeys});
     }
   }
   refuse_other_than_ascii(path, text);
@@ -46,7 +60,7 @@ Json parsed(const std::string& path) {
     return from_toml(table);
   } catch (const toml::parse_error& error) {
     throw Refusal(ExitCode::kBadData, {fmt::format("{}:{}", path, error.source().begin.line), "", "TOML",
-                                       std::string(error.description()), ""});
+                                       std::string(error.description()), kKeys});
   }
 }
 
@@ -58,8 +72,7 @@ class Reader {
   const Json& at(const std::string& key, const std::string& other = "") const {
     if (root_.contains(key)) return root_[key];
     if (!other.empty() && root_.contains(other)) return root_[other];
-    throw Refusal(ExitCode::kBadData, {path_, "\"" + key + "\"", "a key of that name", "none",
-                                       "A linear-gaussian file has F, Q, H, R, mean and covariance."});
+    throw Refusal(ExitCode::kBadData, {path_, "\"" + key + "\"", "a key of that name", "none", kKeys});
   }
   Eigen::MatrixXd matrix(const Json& value, const std::string& key) const {
     if (value.is_number()) return Eigen::MatrixXd::Constant(1, 1, value.get<double>());
@@ -88,9 +101,15 @@ class Reader {
   std::vector<std::string> names(const std::string& key) const {
     std::vector<std::string> out;
     if (!root_.contains(key)) return out;
-    for (const Json& name : root_[key]) {
-      if (!name.is_string()) refuse(key, "a list of names");
-      out.push_back(name.get<std::string>());
+    if (!root_[key].is_array()) refuse(key, "a list of names");
+    for (const Json& value : root_[key]) {
+      const std::string name = value.is_string() ? value.get<std::string>() : "";
+      if (!is_name(name) || name == "t" || std::find(out.begin(), out.end(), name) != out.end())
+        throw Refusal(
+            ExitCode::kBadData,
+            {path_, "\"" + key + "\"", "different names of letters, digits and _ with a letter first, none of them t",
+             value.dump(), "Names are written [\"x\", \"v\"]."});
+      out.push_back(name);
     }
     return out;
   }
@@ -108,7 +127,11 @@ class Reader {
 }  // namespace
 
 LinearGaussianParameters read_linear_gaussian(const std::string& path) {
-  const Reader reader(path, parsed(path));
+  return parse_linear_gaussian(path, read_text(path));
+}
+
+LinearGaussianParameters parse_linear_gaussian(const std::string& path, const std::string& text) {
+  const Reader reader(path, parsed(path, text));
   LinearGaussianParameters p;
   p.F = reader.matrix(reader.at("F"), "F");
   p.Q = reader.matrix(reader.at("Q"), "Q");

@@ -14,4 +14,7 @@ namespace mote {
 /// error   Refusal (kBadData) naming the file and, where known, the line or key
 LinearGaussianParameters read_linear_gaussian(const std::string& path);
 
+/// The same from a text; `path` names it and tells JSON (*.json) from TOML.
+LinearGaussianParameters parse_linear_gaussian(const std::string& path, const std::string& text);
+
 }  // namespace mote

@@ -2,22 +2,19 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
+#include <stdexcept>
 #include <string>
 
 #include "mote/app/files/matrices.hpp"
 #include "mote/base/refusal.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  for (const std::string ending : {".toml", ".json"}) {
-    const std::string path = "/tmp/mote-fuzz-matrices" + ending;
-    std::FILE* file = std::fopen(path.c_str(), "wb");
-    if (file == nullptr) return 0;
-    std::fwrite(data, 1, size, file);
-    std::fclose(file);
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  for (const std::string path : {"fuzz.toml", "fuzz.json"}) {
     try {
-      mote::read_linear_gaussian(path);
-    } catch (const mote::Refusal&) {  // what bad input is meant to give
+      mote::LinearGaussian(mote::parse_linear_gaussian(path, text));
+    } catch (const mote::Refusal&) {          // what bad input is meant to give
+    } catch (const std::invalid_argument&) {  // matrices that do not fit together
     }
   }
   return 0;

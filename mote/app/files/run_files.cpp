@@ -1,11 +1,10 @@
 #include "mote/app/files/run_files.hpp"
 
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-
-#include "mote/app/files/output.hpp"
 
 namespace mote {
 namespace {
@@ -15,7 +14,7 @@ bool has_chain(const RunRecord& record) {
 }
 
 /// A column name as CSV wants it.
-std::string quoted(const std::string& name) {
+std::string field(const std::string& name) {
   return name.find_first_of("\",") == std::string::npos ? name : "\"" + name + "\"";
 }
 
@@ -29,7 +28,7 @@ std::string estimates_csv(const RunRecord& record) {
   for (const Quantity& state : record.states) csv += "," + state.name + "_mean," + state.name + "_sd";
   csv += ",ess,log_evidence";
   if (has_chain(record)) csv += ",acceptance";
-  for (const std::string& label : record.function_labels) csv += "," + quoted(label);
+  for (const std::string& label : record.function_labels) csv += "," + field(label);
   csv += '\n';
   for (const EstimateRow& row : record.rows) {
     csv += std::to_string(row.t);
@@ -77,16 +76,18 @@ std::string particles_header(const std::vector<Quantity>& states) {
   return line + ",weight\n";
 }
 
-std::string particles_csv(Step t, const WeightedSet& set) {
-  std::string csv;
+void write_particles(Output& out, Step t, const WeightedSet& set) {
   set.visit([&](const auto& x) {
+    fmt::memory_buffer line;
     for (std::size_t i = 0; i < set.size(); ++i) {
-      csv += std::to_string(t);
-      for (std::size_t d = 0; d < x.dimensions(); ++d) csv += "," + fmt::format("{}", x.component(d)[i]);
-      csv += "," + exact(set.weights[i] / set.total) + "\n";
+      line.clear();
+      fmt::format_to(std::back_inserter(line), "{}", t);
+      for (std::size_t d = 0; d < x.dimensions(); ++d)
+        fmt::format_to(std::back_inserter(line), ",{}", x.component(d)[i]);
+      fmt::format_to(std::back_inserter(line), ",{}\n", set.weights[i] / set.total);
+      out.write({line.data(), line.size()});
     }
   });
-  return csv;
 }
 
 }  // namespace mote

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "mote/app/files/output.hpp"
 #include "mote/engine/run_record.hpp"
 
 namespace mote {
@@ -18,6 +19,6 @@ nlohmann::json summary_json(const RunRecord& record, const Summary& summary);
 
 /// Header and lines of a particle dump: t, states, normalised weight.
 std::string particles_header(const std::vector<Quantity>& states);
-std::string particles_csv(Step t, const WeightedSet& set);
+void write_particles(Output& out, Step t, const WeightedSet& set);
 
 }  // namespace mote

@@ -25,13 +25,6 @@ std::vector<std::string_view> fields_of(std::string_view line) {
   }
 }
 
-/// A field as a message shows it.
-std::string quoted(std::string_view field) {
-  std::string shown;
-  for (const char c : field.substr(0, 40)) shown += static_cast<unsigned char>(c) < 32 ? '?' : c;
-  return "\"" + shown + (field.size() > 40 ? "...\"" : "\"");
-}
-
 void check_header(const Table& table) {
   for (std::size_t i = 0; i < table.header.size(); ++i)
     if (std::find(table.header.begin(), table.header.begin() + static_cast<std::ptrdiff_t>(i), table.header[i]) !=
@@ -40,9 +33,11 @@ void check_header(const Table& table) {
                     {fmt::format("{}:{}", table.path, table.header_line), "header", "every column once",
                      fmt::format("{} twice", quoted(table.header[i])), "Rename one of them."});
   if (table.header.front() != "t")
-    throw Refusal(ExitCode::kBadData,
-                  {fmt::format("{}:{}", table.path, table.header_line), "first column", "\"t\"",
-                   quoted(table.header.front()), "A data file starts with a header line whose first column is t."});
+    throw Refusal(ExitCode::kBadData, {fmt::format("{}:{}", table.path, table.header_line), "first column", "\"t\"",
+                                       quoted(table.header.front()),
+                                       table.header.front().find_first_of(";\t") == std::string::npos
+                                           ? "A data file starts with a header line whose first column is t."
+                                           : "Separate the columns by commas."});
 }
 
 }  // namespace
@@ -74,19 +69,22 @@ Table parse_table(std::string path, std::string text) {
       table.header.assign(fields.begin(), fields.end());
       check_header(table);
     } else if (fields.size() != table.header.size()) {
-      throw Refusal(
-          ExitCode::kBadData,
-          {fmt::format("{}:{}", table.path, number), "", fmt::format("{} fields as in the header", table.header.size()),
-           std::to_string(fields.size()), "The line may be cut off; write an empty field for a missed observation."});
+      throw Refusal(ExitCode::kBadData,
+                    {fmt::format("{}:{}", table.path, number), "",
+                     fmt::format("{} fields as in the header", table.header.size()), std::to_string(fields.size()),
+                     fields.size() < table.header.size()
+                         ? "The line may be cut off; write an empty field for a missed observation."
+                         : "Write numbers with a point, not a comma."});
     } else {
       table.lines.push_back({number, std::move(fields)});
     }
   }
   if (!have_header)
-    throw Refusal(ExitCode::kBadData,
-                  {table.path, "", "a header line and rows of data", "an empty file", "Its first column is t."});
+    throw Refusal(ExitCode::kBadData, {table.path, "", "a header line and rows of data", "an empty file",
+                                       "Start it with t,NAMES OF COLUMNS."});
   if (table.lines.empty())
-    throw Refusal(ExitCode::kBadData, {table.path, "", "rows of data after the header", "none", ""});
+    throw Refusal(ExitCode::kBadData, {fmt::format("{}:{}", table.path, table.header_line), "",
+                                       "rows of data after the header", "none", "Write a row for every step."});
   return table;
 }
 

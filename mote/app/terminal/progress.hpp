@@ -7,7 +7,14 @@
 
 namespace mote {
 
-/// Draws on standard error while it lives and is a terminal; silent otherwise. Redraws at most ten times a second.
+/// The bar as a line of at most `columns` columns: what does not fit is left out from the end.
+///
+///   [##########....................]  33 %  330/1000 steps  110/s  6 s left
+std::string progress_line(std::size_t done, std::size_t all, double seconds, const std::string& unit,
+                          std::size_t columns);
+
+/// Draws on standard error while it lives, if that is a terminal that can redraw a line; silent otherwise. Redraws at
+/// most ten times a second and leaves no trace.
 class Progress {
  public:
   /// `unit` names what is counted ("steps").
