@@ -169,19 +169,19 @@ int with_printed(int code) {
 }
 
 int performed(const Bound& bound, const std::string& where, const std::string& command_line) {
-    try {
+  try {
     check_words(bound, where);
     return with_printed(static_cast<int>(bound.command.run(bound.arguments(where, command_line))));
-    } catch (const Refusal& refusal) {
-      return refused(refusal.what(), refusal.code());
-    } catch (const std::bad_alloc&) {
+  } catch (const Refusal& refusal) {
+    return refused(refusal.what(), refusal.code());
+  } catch (const std::bad_alloc&) {
     return refused(where + ": the memory did not suffice. Pass fewer --particles, or less data.", ExitCode::kWrongUse);
-    } catch (const std::exception& error) {
+  } catch (const std::exception& error) {
     const int number = errno;
     if (std::ferror(stdout) != 0) return refused_output(number);
     return refused(fmt::format("{}: a fault of mote itself: {}. Please report it.", where, error.what()),
                    static_cast<ExitCode>(1));
-    }
+  }
 }
 
 }  // namespace
@@ -277,12 +277,12 @@ int run_program(int count, char** words) {
   };
   const std::string known = fmt::format("one of {}", fmt::join(names, ", "));
   try {
-  try {
-    program.parse(count, words);
-  } catch (const CLI::ParseError& error) {
+    try {
+      program.parse(count, words);
+    } catch (const CLI::ParseError& error) {
       if (error.get_exit_code() == 0) return with_printed(program.exit(error));  // --help, --version
       throw refusal_for(error, asked(), asked() == nullptr ? "mote" : "mote " + asked()->command.name);
-  }
+    }
     if (const auto words_left = program.remaining(); !words_left.empty() && !words_left.front().starts_with("-"))
       throw Refusal(ExitCode::kWrongUse, {"mote", "COMMAND", known, "\"" + words_left.front() + "\"",
                                           hint(words_left.front(), names, "See mote --help.")});

@@ -73,7 +73,7 @@ void Output::open_in_place() {
   } else {
     file_ = std::fopen(target_.c_str(), "wbe");
   }
-    if (file_ == nullptr) fail(errno);
+  if (file_ == nullptr) fail(errno);
 }
 
 void Output::open_aside() {
