@@ -2,12 +2,12 @@
 
 #include <cmath>
 #include <cstdio>
-#include <mote/filter/estimate.hpp>
-#include <mote/filter/imh.hpp>
-#include <mote/filter/sisr.hpp>
 #include <vector>
 
 #include "pendulum.hpp"
+#include <mote/filter/estimate.hpp>
+#include <mote/filter/imh.hpp>
+#include <mote/filter/sisr.hpp>
 
 int main() {
   const Pendulum pendulum;
@@ -32,6 +32,7 @@ int main() {
     squares_sisr += error(*sisr);
     squares_imh += error(*imh);
   }
-  std::printf("angle RMSE: SISR %.3f rad, IMH %.3f rad\n", std::sqrt(squares_sisr / kSteps), std::sqrt(squares_imh / kSteps));
+  std::printf("angle RMSE: SISR %.3f rad, IMH %.3f rad\n", std::sqrt(squares_sisr / kSteps),
+              std::sqrt(squares_imh / kSteps));
   return squares_sisr / kSteps < 0.01 && squares_imh / kSteps < 0.01 ? 0 : 1;
 }

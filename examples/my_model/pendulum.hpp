@@ -2,10 +2,12 @@
 // A model of your own: a damped pendulum pushed by noise, seen by the horizontal place of its bob.
 
 #include <array>
+
 #include <mote/model/densities.hpp>
 #include <mote/model/model.hpp>
 
-/// angle' = angle + h rate,   rate' = rate - h (g sin angle + damping rate) + sqrt(h) N(0, push^2),   y = sin angle + N(0, blur^2)
+/// angle' = angle + h rate,   rate' = rate - h (g sin angle + damping rate) + sqrt(h) N(0, push^2),   y = sin angle +
+/// N(0, blur^2)
 struct Pendulum {
   double h = 0.05, gravity = 9.81, damping = 0.2, push = 0.5, blur = 0.1;
 
