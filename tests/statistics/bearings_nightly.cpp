@@ -12,7 +12,8 @@ namespace {
 double largest_difference(const statistics::Trace& a, const statistics::Trace& b) {
   double worst = 0;
   for (std::size_t k = 0; k < a.means.size(); ++k)
-    for (std::size_t d = 0; d < a.means[k].size(); ++d) worst = std::max(worst, std::abs(a.means[k][d] - b.means[k][d]));
+    for (std::size_t d = 0; d < a.means[k].size(); ++d)
+      worst = std::max(worst, std::abs(a.means[k][d] - b.means[k][d]));
   return worst;
 }
 
@@ -24,7 +25,9 @@ TEST(BearingsAtFullSize, AgreeWithAMillionParticles) {
     Bearings model;
     model.p.sigma_r = degrees * kPi / 180;
     const auto scene = statistics::simulate(model, 24, 4);
-    const auto run = [&](std::unique_ptr<Filter> filter) { return statistics::trace(*filter, model.states(), scene.recording); };
+    const auto run = [&](std::unique_ptr<Filter> filter) {
+      return statistics::trace(*filter, model.states(), scene.recording);
+    };
     const auto reference = run(make_sisr(model, 1000000, 9));
     EXPECT_LT(largest_difference(run(make_sisr(model, 200000, 1)), reference), 0.02);
     EXPECT_LT(largest_difference(run(make_imh(model, 200000, 1)), reference), 0.03);

@@ -83,9 +83,9 @@ double doa_difference(const Doa& model, const Doa& believed) {
   return std::sqrt(difference / deviation);
 }
 
-// claim    SISR and IMH give the same mean direction (IMH-HW Fig. 5): their systematic difference is below the noise of one run
-// referee  each other; 20 runs each on one recording leave 1 / sqrt(20) = 0.22 of chance
-// risk     the statistic's chance part has a deviation below 0.03: 0.7 is beyond 1e-6; the twin believes in four times the error
+// claim    SISR and IMH give the same mean direction (IMH-HW Fig. 5): their systematic difference is below the noise of
+// one run referee  each other; 20 runs each on one recording leave 1 / sqrt(20) = 0.22 of chance risk     the
+// statistic's chance part has a deviation below 0.03: 0.7 is beyond 1e-6; the twin believes in four times the error
 TEST(Doa, SisrAndImhAgree) {
   Doa model;
   model.frame = 6;
