@@ -36,7 +36,7 @@ std::vector<fs::path> items_of(const fs::path& folder) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error))
     if (entry.path().extension() == ".toml") items.push_back(entry.path());
-  std::sort(items.begin(), items.end());
+  std::sort(items.begin(), items.end(), [](const fs::path& a, const fs::path& b) { return a.stem() < b.stem(); });
   return items;
 }
 
@@ -115,7 +115,8 @@ Command reproduce_command() {
           {{"PAPER", "imh-hw, fpga, mixed, imh-opt, ppf or all"}},
           {{"--out", "DIR", "", "folder for figures (CSV), index.html and comparison.json", "Output"}},
           run_reproduce,
-          "Items are data: papers/<name>/*.toml. An item that does not hold is a result, not an error."};
+          "Items are data: papers/<name>/*.toml (papers/README.md says how). One that does not hold is a result, not "
+          "an error."};
 }
 
 }  // namespace mote

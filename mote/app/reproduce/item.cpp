@@ -134,30 +134,27 @@ Item read_item(const std::string& path, const std::string& paper) {
 }
 
 std::string meaning_of(const Comparison& c) {
-  const std::string ratio = c.runs.size() == 2 ? fmt::format(", {} over {}", c.runs[0], c.runs[1]) : "";
+  constexpr std::array<std::string_view, 3> kIn{
+      ", in Monte-Carlo standard errors of that difference (1 = none to be seen)", ", in posterior deviations", ""};
+  const std::string over = fmt::format(", {} over recordings", kMiddles[c.median ? 1 : 0]);
   switch (c.kind) {
-    case Kind::kMeanDifference: {
-      constexpr std::array<std::string_view, 3> kIn{
-          " in Monte-Carlo standard errors of that difference (1 = none to be seen)", " in posterior deviations", ""};
+    case Kind::kMeanDifference:
       return fmt::format(
-          "RMS over time of the difference of the mean estimates of {}, {} and {}, each averaged over "
-          "the repeats on one recording,{}",
-          c.state, c.runs[0], c.runs[1], kIn[static_cast<std::size_t>(c.unit)]);
-    }
+          "Difference of means: RMS over time between the mean estimates of two runs, each averaged over "
+          "the repeats on one recording{}",
+          kIn[static_cast<std::size_t>(c.unit)]);
     case Kind::kMeanSpread:
-      return fmt::format("Monte-Carlo deviation of the mean of {} on one recording, RMS over time{}", c.state, ratio);
+      return "Deviation of the posterior mean: Monte-Carlo deviation over repeats on one recording, RMS over time";
     case Kind::kRmse:
-      return fmt::format("RMSE of {} to the truth, {} over recordings{}", c.state, kMiddles[c.median ? 1 : 0], ratio);
+      return "RMSE: root over time of the mean squared error to the truth" + over;
     case Kind::kNormalisedError:
-      return fmt::format("RMS of (mean - truth) of {} in {}, in posterior deviations of {} (1 = the exact filter)",
-                         c.state, c.runs.front(), c.runs.back());
+      return "Error in deviations: RMS over time and recordings of (mean - truth) / posterior deviation (1 = exact)";
     case Kind::kFinalBias:
-      return fmt::format("mean - truth of {} at the last step, {} over recordings{}", c.state,
-                         kMiddles[c.median ? 1 : 0], ratio);
+      return "Final bias: mean - truth at the last step" + over;
     case Kind::kEvidenceSpread:
-      return fmt::format("deviation of the log evidence over repeats on one recording (nat){}", ratio);
+      return "Spread of the log evidence: its deviation over repeats on one recording (nat)";
     case Kind::kSummary:
-      return fmt::format("{} of a run, {} over recordings{}", c.key, kMiddles[c.median ? 1 : 0], ratio);
+      return "Figure of a run's summary" + over;
   }
   return "";
 }

@@ -95,7 +95,7 @@ void Laboratory::check_comparisons() const {
     return d && truth.known.size() > *d && truth.known[*d];
   };
   for (const Comparison& c : item_.comparisons) {
-    const bool position = c.state == "position" && c.kind == Kind::kRmse;
+    const bool position = c.state == "position" && c.kind == Kind::kRmse && place_of("x") && place_of("y");
     if (!c.state.empty() && !position && !place_of(c.state))
       throw Refusal(ExitCode::kBadData, {c.where, "\"state\"", "a state of the model", "\"" + c.state + "\"", ""});
     if (needs_truth(c.kind) && !(position ? known("x") && known("y") : known(c.state)))

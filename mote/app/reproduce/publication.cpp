@@ -21,9 +21,8 @@ std::string paper_text(const Comparison& c) {
 }
 
 std::string ours_text(const Result& result) {
-  if (std::isnan(result.ours)) return "no number";
-  return result.standard_error ? fmt::format("{:.4g} ± {:.2g}", result.ours, *result.standard_error)
-                               : fmt::format("{:.4g}", result.ours);
+  const std::string error = result.standard_error ? fmt::format(" ± {:.2g}", *result.standard_error) : "";
+  return std::isnan(result.ours) ? "no number" : fmt::format("{:.4g}{}", result.ours, error);
 }
 
 std::string note_of(const Result& result) {
@@ -38,15 +37,34 @@ std::size_t holding(const Outcome& outcome) {
       std::count_if(outcome.results.begin(), outcome.results.end(), [](const Result& r) { return r.holds; }));
 }
 
-report::Table comparisons_table(const std::vector<Regenerated>& all) {
-  report::Table table{.title = "Comparison with the papers",
-                      .columns = {"Item", "Compared", "Paper", "Ours", "Ratio", "Holds when", "Holds"}};
+report::Table comparisons_table(const Item& item, const Outcome& outcome) {
+  report::Table table{
+      .title = name_of(item) + ": " + item.title,
+      .columns = {"Compared", "Paper", "Ours", "Std. error", "Ratio", "Holds when", "Holds", "Repeats"}};
+  for (const Result& result : outcome.results)
+    table.rows.push_back({result.asked.name, paper_text(result.asked),
+                          std::isnan(result.ours) ? "no number" : fmt::format("{:.4g}", result.ours),
+                          result.standard_error ? fmt::format("{:.2g}", *result.standard_error) : "",
+                          result.ratio ? fmt::format("{:.3g}", *result.ratio) : "", condition_of(result.asked),
+                          result.holds ? "yes" : "NO", std::to_string(result.asked.repeats)});
+  return table;
+}
+
+/// What the comparisons mean, each kind once, and what is said about single ones.
+std::vector<std::string> notes_on(const std::vector<Regenerated>& all) {
+  std::vector<std::string> notes{"Std. error: of our number, over its repeats (leaving out one at a time)."};
   for (const auto& [item, outcome] : all)
     for (const Result& result : outcome.results)
-      table.rows.push_back({name_of(item), result.asked.name, paper_text(result.asked), ours_text(result),
-                            result.ratio ? fmt::format("{:.3g}", *result.ratio) : "", condition_of(result.asked),
-                            result.holds ? "yes" : "NO"});
-  return table;
+      if (const std::string note = meaning_of(result.asked) + ".";
+          std::find(notes.begin(), notes.end(), note) == notes.end())
+        notes.push_back(note);
+  for (const auto& [item, outcome] : all) {
+    for (const Result& result : outcome.results)
+      if (!result.asked.note.empty())
+        notes.push_back(fmt::format("{}, {}: {}.", name_of(item), result.asked.name, result.asked.note));
+    for (const std::string& collapse : outcome.collapses) notes.push_back(name_of(item) + ", " + collapse);
+  }
+  return notes;
 }
 
 report::Table items_table(const std::vector<Regenerated>& all) {
@@ -95,10 +113,7 @@ report::Page page_of(const std::string& paper, const std::vector<Regenerated>& a
     compared += outcome.results.size();
     page.facts.push_back({name_of(item), fmt::format("{} of {} hold", holding(outcome), outcome.results.size())});
     for (const Figure& figure : item.figures) page.charts.push_back(chart_of(item, figure, outcome));
-    for (const std::string& collapse : outcome.collapses)
-      page.notes.push_back(fmt::format("{}: {}", name_of(item), collapse));
-    for (const Result& result : outcome.results)
-      page.notes.push_back(fmt::format("{}, {}: {}.", name_of(item), result.asked.name, note_of(result)));
+    page.tables.push_back(comparisons_table(item, outcome));
     page.command += fmt::format("\n\n# {}: {}\n{}", name_of(item), item.title, script_for(item));
     page.command.pop_back();
   }
@@ -108,7 +123,8 @@ report::Page page_of(const std::string& paper, const std::vector<Regenerated>& a
   }
   page.summary =
       fmt::format("{} item{}: {} of {} comparisons hold.", all.size(), all.size() == 1 ? "" : "s", held, compared);
-  page.tables = {comparisons_table(all), items_table(all)};
+  page.tables.push_back(items_table(all));
+  page.notes = notes_on(all);
   return page;
 }
 
