@@ -1,5 +1,6 @@
 // Items: that their comparisons can fail, that their commands make the same numbers, that broken ones are refused.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "mote/app/files/table.hpp"
@@ -53,7 +54,7 @@ TEST(Items, TheirCommandsMakeTheSameNumbers) {
     for (const std::string column : {"theta_mean", "theta_sd", "phi_mean"})
       for (std::size_t k = 0; k < figure.lines.size(); ++k)
         EXPECT_EQ(estimates.lines[k].fields[estimates.column(column).value()],
-                  figure.lines[k].fields[figure.column(run + "_" + column).value()]);
+                  figure.lines[k].fields[figure.column(fmt::format("{}_{}", run, column)).value()]);
   }
 }
 
@@ -167,10 +168,11 @@ TEST(Items, AreRefusedByLine) {
       {"", fine + "[[compare]]\nname = \"n\"\nkind = \"rmse\"\nruns = [\"no\"]\n",
        "item.toml:31: \"runs\": expected names"},
       {"", fine + "[[compare]]\nname = \"n\"\nkind = \"rmse\"\nruns = [\"right\"]\nstate = \"position\"\nat_most = 1\n",
-       "item.toml:28: \"state\": expected a state of the model, got \"position\""},
+       R"(item.toml:28: "state": expected a state of the model, got "position")"},
   };
   for (const Broken& broken : cases) try {
-      reproduce::Laboratory(item_with(scratch, sample_item({.run = broken.run, .compare = broken.compare})));
+      const Item item = item_with(scratch, sample_item({.run = broken.run, .compare = broken.compare}));
+      const reproduce::Laboratory laboratory(item);
       ADD_FAILURE() << "accepted: " << broken.says;
     } catch (const Refusal& refusal) {
       EXPECT_EQ(refusal.code(), ExitCode::kBadData) << refusal.what();

@@ -7,9 +7,9 @@ namespace mote::testing {
 
 /// Lines that a test adds or replaces.
 struct ItemLines {
-  std::string run = "";                   ///< added to the second run, line 17
+  std::string run = {};                   ///< added to the second run, line 17
   std::string compare = "at_most = 3\n";  ///< the condition
-  std::string end = "";
+  std::string end = {};
 };
 
 inline std::string sample_item(const ItemLines& lines = {}) {
