@@ -1,0 +1,61 @@
+# Installs mote into a scratch prefix, builds examples/my_model against it as a user would, runs it and checks what it prints.
+#   cmake -DMOTE_BUILD= -DEXAMPLE= -DSCRATCH= -DGENERATOR= -DCOMPILER= -DLAUNCHER= -P consumer.cmake
+cmake_minimum_required(VERSION 3.25)
+function(must)
+  execute_process(COMMAND ${ARGV} RESULT_VARIABLE failed OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(failed)
+    message(FATAL_ERROR "${ARGV}\nfailed with ${failed}:\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE ${SCRATCH})
+must(${CMAKE_COMMAND} --install ${MOTE_BUILD} --prefix ${SCRATCH}/prefix)
+must(${CMAKE_COMMAND} -E copy_directory ${EXAMPLE} ${SCRATCH}/my_model) # nothing of the source tree is within reach
+must(${CMAKE_COMMAND} -S ${SCRATCH}/my_model -B ${SCRATCH}/build -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${SCRATCH}/prefix
+     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER} -DCMAKE_CXX_FLAGS=-Wall\ -Wextra\ -Werror)
+must(${CMAKE_COMMAND} --build ${SCRATCH}/build)
+
+file(GLOB_RECURSE stray ${SCRATCH}/prefix/include/*_test.cpp ${SCRATCH}/prefix/include/*.cpp)
+if(stray)
+  message(FATAL_ERROR "installed what is no header: ${stray}")
+endif()
+file(GLOB_RECURSE package ${SCRATCH}/prefix/moteTargets*.cmake)
+set(targets "")
+foreach(file IN LISTS package)
+  file(READ ${file} text)
+  string(APPEND targets "${text}")
+endforeach()
+cmake_path(GET EXAMPLE PARENT_PATH examples)
+cmake_path(GET examples PARENT_PATH source)
+string(FIND "${targets}" "${source}/" inside)
+if(NOT package OR NOT inside EQUAL -1 OR targets MATCHES "Werror")
+  message(FATAL_ERROR "the installed package names the source tree or our warnings:\n${targets}")
+endif()
+
+# claim    both filters follow the pendulum and agree on the evidence
+# referee  the measurement alone: arcsin(y) is wrong by 0.1 rad and more
+# design   one simulation of 200 steps, fixed seeds: the same digits every time
+must(${SCRATCH}/build/my_model)
+message("${output}")
+foreach(filter IN ITEMS sisr imh)
+  if(NOT output MATCHES "${filter}: rmse of the angle ([0-9.]+) rad, log evidence (-?[0-9]+)")
+    message(FATAL_ERROR "no summary of ${filter} in:\n${output}")
+  endif()
+  set(${filter}_rmse ${CMAKE_MATCH_1})
+  set(${filter}_evidence ${CMAKE_MATCH_2})
+  if(NOT ${filter}_rmse LESS 0.07)
+    message(FATAL_ERROR "${filter} lost the pendulum: rmse ${${filter}_rmse}")
+  endif()
+endforeach()
+math(EXPR apart "${sisr_evidence} - ${imh_evidence}")
+if(apart GREATER 2 OR apart LESS -2)
+  message(FATAL_ERROR "evidences are ${apart} apart")
+endif()
+
+if(EXISTS ${SCRATCH}/build/my_model_laws)
+  must(${SCRATCH}/build/my_model_laws)
+  if(NOT output MATCHES "PASSED  . 7 tests")
+    message(FATAL_ERROR "the laws of the user's model:\n${output}")
+  endif()
+endif()
