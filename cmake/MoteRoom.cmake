@@ -1,9 +1,10 @@
-# mote_room(<name> [SOURCES ...] [SEES rooms...] [LINKS public libraries...] [TESTS ...] [NIGHTLY ...])
+# mote_room(<name> [SOURCES ...] [SEES rooms...] [LINKS public libraries...] [TESTS ...] [NIGHTLY ...] [FUZZ ...])
 #
 # A room is a folder under mote/, a target mote::<name>, its installed headers and one test program per label.
 # NIGHTLY files are slow statistics: built with the rest, run by `./check --all` only (ctest label "nightly").
+# FUZZ files hold an LLVMFuzzerTestOneInput each: built by the preset "fuzz", run by tools/fuzz.
 function(mote_room name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;SEES;LINKS;PRIVATE_LINKS;TESTS;TEST_LINKS;NIGHTLY" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;SEES;LINKS;PRIVATE_LINKS;TESTS;TEST_LINKS;NIGHTLY;FUZZ" ${ARGN})
   list(TRANSFORM ARG_SEES PREPEND "mote::")
   set(target mote_${name})
   if(ARG_SOURCES)
@@ -19,10 +20,15 @@ function(mote_room name)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   set_property(GLOBAL APPEND PROPERTY MOTE_ROOMS ${target})
   install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/mote/${name}
-          FILES_MATCHING PATTERN "*.hpp" PATTERN "node_modules" EXCLUDE PATTERN "testing" EXCLUDE)
+          FILES_MATCHING PATTERN "*.hpp" PATTERN "page" EXCLUDE)
   if(MOTE_TESTS)
     mote_tests(${name}_tests "" SOURCES ${ARG_TESTS} LINKS ${target} ${ARG_TEST_LINKS})
     mote_tests(${name}_nightly nightly SOURCES ${ARG_NIGHTLY} LINKS ${target} ${ARG_TEST_LINKS})
+  endif()
+  if(MOTE_FUZZ)
+    foreach(source IN LISTS ARG_FUZZ)
+      mote_fuzz(${source} LINKS ${target} ${ARG_TEST_LINKS})
+    endforeach()
   endif()
 endfunction()
 
@@ -41,3 +47,35 @@ function(mote_tests program label)
     gtest_discover_tests(${program} TEST_PREFIX ${program}. PROPERTIES TIMEOUT 600 DISCOVERY_TIMEOUT 60)
   endif()
 endfunction()
+
+# mote_fuzz(<file> LINKS ...): the libFuzzer program fuzz/<room>.<file's stem>; seeds in the folder <stem>.corpus/ beside it.
+if(MOTE_FUZZ)
+  add_custom_target(fuzz)
+  file(WRITE ${PROJECT_BINARY_DIR}/fuzz/programs.txt "")
+endif()
+function(mote_fuzz source)
+  cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
+  cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME folder)
+  cmake_path(GET source STEM stem)
+  set(program ${folder}.${stem})
+  add_executable(${program} ${source})
+  target_link_libraries(${program} PRIVATE ${ARG_LINKS} mote_strict)
+  target_link_options(${program} PRIVATE -fsanitize=fuzzer)
+  set_target_properties(${program} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/fuzz)
+  add_dependencies(fuzz ${program})
+  file(APPEND ${PROJECT_BINARY_DIR}/fuzz/programs.txt "${program}\n")
+  if(IS_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/${stem}.corpus)
+    file(COPY ${CMAKE_CURRENT_SOURCE_DIR}/${stem}.corpus/ DESTINATION ${PROJECT_BINARY_DIR}/fuzz/${program}.corpus)
+  endif()
+endfunction()
+
+# Whoever includes past rooms.txt breaks the build.
+find_program(MOTE_PYTHON python3 REQUIRED)
+add_custom_command(
+  OUTPUT ${PROJECT_BINARY_DIR}/rooms.stamp
+  COMMAND ${MOTE_PYTHON} ${PROJECT_SOURCE_DIR}/tools/check_rooms ${PROJECT_SOURCE_DIR} --stamp ${PROJECT_BINARY_DIR}/rooms.stamp
+          --depfile ${PROJECT_BINARY_DIR}/rooms.d
+  DEPENDS ${PROJECT_SOURCE_DIR}/tools/check_rooms
+  DEPFILE ${PROJECT_BINARY_DIR}/rooms.d
+  COMMENT "Who includes whom: tools/check_rooms" VERBATIM)
+add_custom_target(mote_rooms ALL DEPENDS ${PROJECT_BINARY_DIR}/rooms.stamp)

@@ -15,8 +15,9 @@ Xoshiro keyed_generator(const Address& address, std::uint32_t lane) {
       {static_cast<std::uint32_t>(address.seed), static_cast<std::uint32_t>(address.seed >> kHigh)}};
   Xoshiro generator{};
   for (std::uint32_t half = 0; half < 2; ++half) {
-    const r123::Philox4x32::ctr_type counter = {
-        {address.block, address.step, static_cast<std::uint32_t>(address.purpose) + (address.stream << 8U), lane + 8 * half}};
+    const r123::Philox4x32::ctr_type counter = {{address.block, address.step,
+                                                 static_cast<std::uint32_t>(address.purpose) + (address.stream << 8U),
+                                                 lane + 8 * half}};
     const auto words = r123::Philox4x32()(counter, key);
     generator.s[2 * half] = joined(words[0], words[1]);
     generator.s[2 * half + 1] = joined(words[2], words[3]);

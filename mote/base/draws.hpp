@@ -1,11 +1,12 @@
 #pragma once
-/// Randomness by address: every draw is a function of (seed, step, purpose, stream, particle block, draw number), never of call order.
+/// Randomness by address: every draw is a function of (seed, step, purpose, stream, particle block, draw number), never
+/// of call order.
 ///
-/// Particles are drawn in blocks of 1024. A block has eight generators (xoshiro256++), keyed by a counter-based generator
-/// (Philox4x32-10) from its address. Particle i of a block uses generator i mod 8; the draws of a generator go to its
-/// particles in order, so one vector of eight generators serves eight particles at a time and the scalar code below gives the
-/// same numbers. In float, a word serves two particles: its low half particle j, its high half particle j + 8 of each sixteen.
-/// See docs/decisions/0001-random-numbers.md.
+/// Particles are drawn in blocks of 1024. A block has eight generators (xoshiro256++), keyed by a counter-based
+/// generator (Philox4x32-10) from its address. Particle i of a block uses generator i mod 8; the draws of a generator
+/// go to its particles in order, so one vector of eight generators serves eight particles at a time and the scalar code
+/// below gives the same numbers. In float, a word serves two particles: its low half particle j, its high half particle
+/// j + 8 of each sixteen. See docs/decisions/0001-random-numbers.md.
 
 #include <array>
 #include <bit>
@@ -21,7 +22,18 @@ namespace mote {
 inline constexpr std::size_t kBlock = 1024;
 
 /// What a stream of draws is for; streams of different purposes are independent.
-enum class Purpose : std::uint32_t { kPrior, kMove, kParent, kSelect, kAccept, kStart, kObserve, kReset, kTest };
+enum class Purpose : std::uint32_t {
+  kPrior,
+  kMove,
+  kParent,
+  kSelect,
+  kAccept,
+  kStart,
+  kObserve,
+  kReset,
+  kTest,
+  kTruth
+};
 
 /// Where a block of draws lives.
 struct Address {
@@ -49,7 +61,8 @@ struct Xoshiro {
   }
 };
 
-/// The generator of one lane (0..7) of the block at an address: Philox4x32-10 of (block, step, purpose, lane) under the seed.
+/// The generator of one lane (0..7) of the block at an address: Philox4x32-10 of (block, step, purpose, lane) under the
+/// seed.
 Xoshiro keyed_generator(const Address& address, std::uint32_t lane);
 
 /// 64 well-mixed bits from 64 bits (the finalizer of splitmix64).
@@ -81,9 +94,7 @@ class Draw {
   }
 
   /// A uniform index in {0, ..., n-1}.
-  std::size_t index(std::size_t n)
-    requires std::is_same_v<R, double>
-  {
+  std::size_t index(std::size_t n) requires std::is_same_v<R, double> {
     return static_cast<std::size_t>(index_from_bits(generator_->next(), n));
   }
 

@@ -1,11 +1,11 @@
 #include "mote/base/draws.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 namespace mote {
 namespace {
@@ -13,7 +13,8 @@ namespace {
 template <class R>
 std::vector<double> normals(std::size_t n, std::uint64_t seed) {
   std::vector<double> z(n);
-  Draws{seed, 1}.for_each<R>(Purpose::kTest, 0, n, [&](std::size_t i, auto& draw) { z[i] = static_cast<double>(draw.normal()); });
+  Draws{seed, 1}.for_each<R>(Purpose::kTest, 0, n,
+                             [&](std::size_t i, auto& draw) { z[i] = static_cast<double>(draw.normal()); });
   return z;
 }
 
@@ -45,9 +46,11 @@ TEST(Draws, NormalsFollowTheNormalLaw) {
 // risk     1e-6 (|z| < 4.89); the twin (a generator that stops at 4.2 sigma) would hold 1062.7 - 447
 TEST(Draws, TailsHaveTheirMass) {
   for (const auto& z : {normals<double>(1U << 24U, 7), normals<float>(1U << 24U, 8)}) {
-    const auto beyond = static_cast<double>(std::count_if(z.begin(), z.end(), [](double v) { return std::abs(v) > 4; }));
+    const auto beyond =
+        static_cast<double>(std::count_if(z.begin(), z.end(), [](double v) { return std::abs(v) > 4; }));
     EXPECT_NEAR(beyond, 1062.7, 4.89 * 32.6);
-    const auto cut = static_cast<double>(std::count_if(z.begin(), z.end(), [](double v) { return std::abs(v) > 4 && std::abs(v) < 4.2; }));
+    const auto cut = static_cast<double>(
+        std::count_if(z.begin(), z.end(), [](double v) { return std::abs(v) > 4 && std::abs(v) < 4.2; }));
     EXPECT_GT(std::abs(cut - 1062.7), 4.89 * 32.6);
     EXPECT_GT(*std::max_element(z.begin(), z.end()), 4.9);
   }
@@ -71,7 +74,8 @@ TEST(Draws, DifferAcrossEveryPartOfTheAddress) {
     for (std::uint32_t step : {0U, 1U, 2U})
       for (const Purpose purpose : {Purpose::kMove, Purpose::kParent})
         for (std::uint32_t block : {0U, 1U})
-          for (std::uint32_t lane = 0; lane < 8; ++lane, ++asked) words.insert(keyed_generator({seed, step, purpose, block}, lane).next());
+          for (std::uint32_t lane = 0; lane < 8; ++lane, ++asked)
+            words.insert(keyed_generator({seed, step, purpose, block}, lane).next());
   EXPECT_EQ(words.size(), static_cast<std::size_t>(asked));
 }
 

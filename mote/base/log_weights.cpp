@@ -16,7 +16,8 @@ LogSum log_sum_exp(std::span<const double> log_weights) {
 }
 
 double exponentiate(std::span<const double> log_weights, double largest, std::span<double> weights) {
-  return ordered_sum(log_weights.size(), [&](std::size_t i) { return weights[i] = std::exp(log_weights[i] - largest); });
+  return ordered_sum(log_weights.size(),
+                     [&](std::size_t i) { return weights[i] = std::exp(log_weights[i] - largest); });
 }
 
 double effective_sample_size(std::span<const double> weights) {

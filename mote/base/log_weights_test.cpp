@@ -1,9 +1,9 @@
 #include "mote/base/log_weights.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "mote/base/numbers.hpp"
 
@@ -21,9 +21,7 @@ TEST(LogSumExp, SurvivesWhereLinearWeightsUnderflow) {
   EXPECT_NEAR(log_sum_exp(logs).log_sum, -1e6 + std::log(10.0), 1e-9);
 }
 
-TEST(LogSumExp, SaysWhenAllIsZero) {
-  EXPECT_EQ(log_sum_exp(std::vector<double>(4, -kInfinity)).log_sum, -kInfinity);
-}
+TEST(LogSumExp, SaysWhenAllIsZero) { EXPECT_EQ(log_sum_exp(std::vector<double>(4, -kInfinity)).log_sum, -kInfinity); }
 
 TEST(EffectiveSampleSize, KnowsItsEnds) {
   EXPECT_DOUBLE_EQ(effective_sample_size(std::vector<double>(50, 0.3)), 50);

@@ -1,9 +1,9 @@
 #include "mote/base/normal.hpp"
 
-#include <gtest/gtest.h>
+#include <cmath>
 
 #include <boost/math/distributions/normal.hpp>
-#include <cmath>
+#include <gtest/gtest.h>
 
 namespace mote {
 namespace {
@@ -16,7 +16,8 @@ TEST(StandardNormalQuantile, InvertsTheDistributionFunctionToTheLastDigits) {
     // d log Phi / dz is about |z| in the tail, so a relative error e in z is |z|^2 e in p
     EXPECT_NEAR(boost::math::cdf(standard, z) / p, 1.0, 1e-15 * (4 + 3 * z * z)) << p;
   }
-  for (double p = 0.001; p < 0.5; p += 0.01) EXPECT_NEAR(standard_normal_quantile(1 - p), -standard_normal_quantile(p), 1e-13);
+  for (double p = 0.001; p < 0.5; p += 0.01)
+    EXPECT_NEAR(standard_normal_quantile(1 - p), -standard_normal_quantile(p), 1e-13);
   EXPECT_EQ(standard_normal_quantile(0.5), 0.0);
   EXPECT_NEAR(standard_normal_quantile(0.975), 1.959963984540054, 1e-15);
 }

@@ -1,8 +1,9 @@
 #pragma once
-/// Arithmetic a model may use for any number type S: plain numbers here; vectors and recorded nodes overload the same names.
+/// Arithmetic a model may use for any number type S: plain numbers here; vectors and recorded nodes overload the same
+/// names.
 ///
-/// A model calls these and the functions of <cmath> unqualified after `using namespace mote::numbers;`, so that argument-dependent
-/// lookup finds the overloads of S.
+/// A model calls these and the functions of <cmath> unqualified after `using namespace mote::numbers;`, so that
+/// argument-dependent lookup finds the overloads of S.
 
 #include <cmath>
 #include <concepts>

@@ -1,9 +1,9 @@
 #include "mote/base/permutation.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 namespace mote {
 namespace {
@@ -31,7 +31,8 @@ TEST(Permutation, SpreadsEvenlyOverKeys) {
     for (const double c : count) sum += (c - kKeys / 20.0) * (c - kKeys / 20.0) / (kKeys / 20.0);
     return sum;
   };
-  EXPECT_NEAR(chi_square([](std::uint64_t key, std::size_t j) { return Permutation(kPlaces, key)(j); }), 361, 4.89 * std::sqrt(2 * 361.0));
+  EXPECT_NEAR(chi_square([](std::uint64_t key, std::size_t j) { return Permutation(kPlaces, key)(j); }), 361,
+              4.89 * std::sqrt(2 * 361.0));
   EXPECT_GT(chi_square([](std::uint64_t, std::size_t j) { return j; }), 1e5);
 }
 

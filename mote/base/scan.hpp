@@ -11,9 +11,9 @@ namespace mote {
 ///
 ///   through(i) = sum_{j <= i} w_j
 ///
-/// Every engine forms a prefix by the same two additions, so shares of blocks give the same bits. A prefix is wrong by at most
-/// 1024 roundings of its block and one of the total: at N = 2^24 below 1e-5 of a mean weight (a running float sum
-/// misplaces whole percents of a block's offspring). See docs/decisions/0003-weight-scans.md.
+/// Every engine forms a prefix by the same two additions, so shares of blocks give the same bits. A prefix is wrong by
+/// at most 1024 roundings of its block and one of the total: at N = 2^24 below 1e-5 of a mean weight (a running float
+/// sum misplaces whole percents of a block's offspring). See docs/decisions/0003-weight-scans.md.
 ///
 /// shape   weights: (N,), N >= 1, >= 0, finite, not all zero; they must outlive the scan
 /// cost    O(N) once; memory N / 2 bytes

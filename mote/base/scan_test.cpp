@@ -1,10 +1,10 @@
 #include "mote/base/scan.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "mote/base/draws.hpp"
 

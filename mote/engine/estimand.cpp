@@ -1,10 +1,10 @@
 #include "mote/engine/estimand.hpp"
 
-#include <fmt/format.h>
-
 #include <charconv>
 #include <cmath>
 #include <optional>
+
+#include <fmt/format.h>
 
 #include "mote/base/refusal.hpp"
 
@@ -41,7 +41,11 @@ std::optional<Call> call_of(std::string_view text) {
 Estimand parse_estimand(const std::string& text, const std::vector<ValueSource>& sources, const std::string& where) {
   using Kind = Estimand::Kind;
   const auto refused = [&] {
-    return Refusal(ExitCode::kWrongUse, {where, "--estimate", fmt::format("mean(f), sd(f), median(f), q0.9(f), P(f>1.5) or P(f<1.5) with f one of {}", names_of(sources)), text, "Pass for example --estimate \"q0.95(" + sources.front().quantity.name + ")\"."});
+    return Refusal(
+        ExitCode::kWrongUse,
+        {where, "--estimate",
+         fmt::format("mean(f), sd(f), median(f), q0.9(f), P(f>1.5) or P(f<1.5) with f one of {}", names_of(sources)),
+         text, "Pass for example --estimate \"q0.95(" + sources.front().quantity.name + ")\"."});
   };
   const auto call = call_of(text);
   if (!call || text.find(',') != std::string::npos) throw refused();
@@ -70,17 +74,23 @@ Estimand parse_estimand(const std::string& text, const std::vector<ValueSource>&
   throw refused();
 }
 
-double evaluate(const Estimand& estimand, const ValueSource& source, const WeightedSet& set, std::vector<double>& scratch) {
+double evaluate(const Estimand& estimand, const ValueSource& source, const WeightedSet& set,
+                std::vector<double>& scratch) {
   using Kind = Estimand::Kind;
   scratch.resize(set.size());
   source.fill(set, scratch);
   const std::span<const double> values = scratch;
   switch (estimand.kind) {
-    case Kind::kMean: return moments(values, set.weights, set.total, source.quantity.angle).mean;
-    case Kind::kSd: return moments(values, set.weights, set.total, source.quantity.angle).sd;
-    case Kind::kQuantile: return quantile(values, set.weights, estimand.argument, source.quantity.angle);
-    case Kind::kAbove: return probability(values, set.weights, estimand.argument, true);
-    case Kind::kBelow: return probability(values, set.weights, estimand.argument, false);
+    case Kind::kMean:
+      return moments(values, set.weights, set.total, source.quantity.angle).mean;
+    case Kind::kSd:
+      return moments(values, set.weights, set.total, source.quantity.angle).sd;
+    case Kind::kQuantile:
+      return quantile(values, set.weights, estimand.argument, source.quantity.angle);
+    case Kind::kAbove:
+      return probability(values, set.weights, estimand.argument, true);
+    case Kind::kBelow:
+      return probability(values, set.weights, estimand.argument, false);
   }
   return kNaN;
 }

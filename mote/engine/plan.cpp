@@ -8,36 +8,51 @@
 namespace mote {
 namespace {
 
-void require(bool holds, const std::string& where, const std::string& what, const std::string& expected, const std::string& got, const std::string& next) {
+void require(bool holds, const std::string& where, const std::string& what, const std::string& expected,
+             const std::string& got, const std::string& next) {
   if (!holds) throw Refusal(ExitCode::kWrongUse, {where, what, expected, got, next});
 }
 
 void check_chain(const Plan& plan, const std::string& where) {
   const ChainOptions& c = plan.chain;
   const std::size_t n = plan.particles;
-  require(c.draws == 0 || (c.draws >= n && c.draws <= kMostParticles), where, "--draws", fmt::format("an integer from the number of particles ({}) to {}", n, kMostParticles), std::to_string(c.draws), fmt::format("Pass --draws {}.", 2 * n));
-  require(c.chains >= 1 && c.chains <= n, where, "--chains", fmt::format("an integer from 1 to the number of particles ({})", n), std::to_string(c.chains), "Pass --chains 1.");
+  require(c.draws == 0 || (c.draws >= n && c.draws <= kMostParticles), where, "--draws",
+          fmt::format("an integer from the number of particles ({}) to {}", n, kMostParticles), std::to_string(c.draws),
+          fmt::format("Pass --draws {}.", 2 * n));
+  require(c.chains >= 1 && c.chains <= n, where, "--chains",
+          fmt::format("an integer from 1 to the number of particles ({})", n), std::to_string(c.chains),
+          "Pass --chains 1.");
   const std::size_t burn_in = c.burn_in.value_or(0);
-  require(burn_in <= kMostParticles / c.chains, where, "--burn-in", fmt::format("auto, or an integer from 0 to {}", kMostParticles / c.chains), std::to_string(burn_in), "Pass --burn-in auto.");
+  require(burn_in <= kMostParticles / c.chains, where, "--burn-in",
+          fmt::format("auto, or an integer from 0 to {}", kMostParticles / c.chains), std::to_string(burn_in),
+          "Pass --burn-in auto.");
 }
 
 void check_groups(const Plan& plan, const std::string& where) {
   const GroupOptions& g = plan.groups;
-  require(g.groups >= 1 && g.groups <= plan.particles, where, "--groups", fmt::format("an integer from 1 to the number of particles ({})", plan.particles), std::to_string(g.groups), "Pass --groups 1.");
+  require(g.groups >= 1 && g.groups <= plan.particles, where, "--groups",
+          fmt::format("an integer from 1 to the number of particles ({})", plan.particles), std::to_string(g.groups),
+          "Pass --groups 1.");
   if (g.exchange == Exchange::kNone) return;
   const std::size_t smallest = plan.particles / g.groups;
   const std::size_t most = g.exchange == Exchange::kReplace ? smallest / 2 : smallest;
-  require(g.exchange_count >= 1 && g.exchange_count <= most, where, "--exchange-count", fmt::format("an integer from 1 to {} (groups of {} particles)", most, smallest), std::to_string(g.exchange_count), "Pass --exchange-count 1, or fewer groups.");
+  require(g.exchange_count >= 1 && g.exchange_count <= most, where, "--exchange-count",
+          fmt::format("an integer from 1 to {} (groups of {} particles)", most, smallest),
+          std::to_string(g.exchange_count), "Pass --exchange-count 1, or fewer groups.");
 }
 
 }  // namespace
 
 std::string_view name_of(FilterKind filter) {
   switch (filter) {
-    case FilterKind::kSisr: return "sisr";
-    case FilterKind::kImh: return "imh";
-    case FilterKind::kAuxiliary: return "auxiliary";
-    case FilterKind::kDistributed: return "distributed";
+    case FilterKind::kSisr:
+      return "sisr";
+    case FilterKind::kImh:
+      return "imh";
+    case FilterKind::kAuxiliary:
+      return "auxiliary";
+    case FilterKind::kDistributed:
+      return "distributed";
   }
   return "";
 }
@@ -47,15 +62,21 @@ double bytes_needed(const Plan& plan, std::size_t dimensions) {
   const auto n = static_cast<double>(plan.particles);
   if (plan.filter == FilterKind::kSisr || plan.filter == FilterKind::kDistributed) return n * (state + 48);
   const auto draws = static_cast<double>(plan.chain.draws == 0 ? plan.particles : plan.chain.draws);
-  const double burn_in = static_cast<double>(plan.chain.chains) * (plan.chain.burn_in ? static_cast<double>(*plan.chain.burn_in) : draws);
-  return n * (state + 28) + (draws + (plan.chain.burn_in ? burn_in : 0)) * (state + 16);
+  // `auto` may ask for as many as Q in each chain
+  const double burn_in =
+      static_cast<double>(plan.chain.chains) * (plan.chain.burn_in ? static_cast<double>(*plan.chain.burn_in) : draws);
+  return n * (state + 28) + (draws + burn_in) * (state + 16);
 }
 
 void check(const Plan& plan, const std::string& where) {
-  require(plan.particles >= 1 && plan.particles <= kMostParticles, where, "--particles", fmt::format("an integer from 1 to {}", kMostParticles), std::to_string(plan.particles), "Pass --particles 1000.");
+  require(plan.particles >= 1 && plan.particles <= kMostParticles, where, "--particles",
+          fmt::format("an integer from 1 to {}", kMostParticles), std::to_string(plan.particles),
+          "Pass --particles 1000.");
   const SelectionOptions& s = plan.selection;
-  require(s.ess_threshold >= 0 && s.ess_threshold <= 1, where, "--ess-threshold", "a number from 0 to 1", fmt::format("{}", s.ess_threshold), "Pass --ess-threshold 1 to resample at every step.");
-  require(s.exponent > 0 && s.exponent <= 1, where, "--selection-exponent", "a number above 0, at most 1", fmt::format("{}", s.exponent), "Pass --selection-exponent 1.");
+  require(s.ess_threshold >= 0 && s.ess_threshold <= 1, where, "--ess-threshold", "a number from 0 to 1",
+          fmt::format("{}", s.ess_threshold), "Pass --ess-threshold 1 to resample at every step.");
+  require(s.exponent > 0 && s.exponent <= 1, where, "--selection-exponent", "a number above 0, at most 1",
+          fmt::format("{}", s.exponent), "Pass --selection-exponent 1.");
   if (plan.filter == FilterKind::kImh || plan.filter == FilterKind::kAuxiliary) check_chain(plan, where);
   if (plan.filter == FilterKind::kDistributed) check_groups(plan, where);
 }

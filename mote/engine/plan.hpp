@@ -30,7 +30,8 @@ std::string_view name_of(FilterKind filter);
 /// Bytes that a run of the reference engine needs for states of `dimensions` components, an upper bound.
 double bytes_needed(const Plan& plan, std::size_t dimensions);
 
-/// Refuses a plan whose numbers do not fit together (Refusal, kWrongUse), naming the option; `where` opens the sentence.
+/// Refuses a plan whose numbers do not fit together (Refusal, kWrongUse), naming the option; `where` opens the
+/// sentence.
 void check(const Plan& plan, const std::string& where);
 
 }  // namespace mote

@@ -13,19 +13,18 @@ namespace mote {
 struct ObservedStep {
   Step t;
   std::vector<Row<double>> rows;  ///< rows with at least one observation seen
-  std::vector<double> shown;      ///< the first measurement of each observation column, NaN if none: for plots
 };
 
 /// A recording: its steps in increasing t, gaps allowed, the first at any t >= 1.
 struct Recording {
-  std::vector<std::string> observation_names;
+  std::vector<Column> observations;  ///< the observation columns
   std::vector<ObservedStep> steps;
 };
 
 /// True states by time; NaN where a state is not known.
 struct Truth {
-  std::vector<bool> known;                      ///< by state: whether the truth names it
-  std::map<Step, std::vector<double>> states;   ///< (D,) each
+  std::vector<bool> known;                     ///< by state: whether the truth names it
+  std::map<Step, std::vector<double>> states;  ///< (D,) each
 };
 
 }  // namespace mote

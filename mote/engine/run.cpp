@@ -1,8 +1,8 @@
 #include "mote/engine/run.hpp"
 
-#include <fmt/format.h>
-
 #include <chrono>
+
+#include <fmt/format.h>
 
 #include "mote/base/refusal.hpp"
 
@@ -17,10 +17,13 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-EstimateRow estimated(Step t, const StepReport& report, const WeightedSet& set, const RunRequest& request, std::vector<double>& scratch) {
+EstimateRow estimated(Step t, const StepReport& report, const WeightedSet& set, const RunRequest& request,
+                      std::vector<double>& scratch) {
   EstimateRow row{t, {}, {}, report};
-  for (std::size_t d = 0; d < request.states.size(); ++d) row.states.push_back(component_moments(set, d, request.states[d].angle));
-  for (const Estimand& estimand : request.estimands) row.functions.push_back(evaluate(estimand, request.sources[estimand.source], set, scratch));
+  for (std::size_t d = 0; d < request.states.size(); ++d)
+    row.states.push_back(component_moments(set, d, request.states[d].angle));
+  for (const Estimand& estimand : request.estimands)
+    row.functions.push_back(evaluate(estimand, request.sources[estimand.source], set, scratch));
   return row;
 }
 
@@ -43,7 +46,11 @@ RunRecord run(Filter& filter, const Plan& plan, const Recording& recording, cons
     const bool observed = !step.rows.empty();
     StepReport report = observed ? filter.update(t, step.rows) : filter.predict(t);
     if (report.collapsed && plan.on_collapse == OnCollapse::kStop)
-      throw Refusal(ExitCode::kCollapsed, fmt::format("mote run: t = {}: the filter collapsed: every one of {} particles has weight zero for this step's observation. Pass more --particles, a wider model, or --on-collapse keep or reset.", t, plan.particles));
+      throw Refusal(
+          ExitCode::kCollapsed,
+          fmt::format("mote run: t = {}: the filter collapsed: every one of {} particles has weight zero for this "
+                      "step's observation. Pass more --particles, a wider model, or --on-collapse keep or reset.",
+                      t, plan.particles));
     record.rows.push_back(estimated(t, report, filter.weighted(), request, scratch));
     record.step_seconds += watch.seconds();
     if (request.dump) request.dump(t, filter.weighted());

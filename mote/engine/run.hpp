@@ -14,9 +14,10 @@ struct RunRequest {
   std::vector<Quantity> states;
   std::vector<ValueSource> sources;
   std::vector<Estimand> estimands;
-  std::function<void(std::size_t done, std::size_t all)> progress = [](std::size_t, std::size_t) {};  ///< rows of the data
-  std::function<void(Step, const WeightedSet&)> dump;                                                  ///< empty: no dump
-  const std::atomic<bool>* stop = nullptr;                                                             ///< set by a signal
+  std::function<void(std::size_t done, std::size_t all)> progress = [](std::size_t, std::size_t) {
+  };                                                   ///< rows of the data
+  std::function<void(Step, const WeightedSet&)> dump;  ///< empty: no dump
+  const std::atomic<bool>* stop = nullptr;             ///< set by a signal
 };
 
 /// Filters a recording: predicts across gaps, updates by each step's rows, estimates before selection.

@@ -81,10 +81,12 @@ Summary summarise(const RunRecord& record, const Truth* truth) {
   summary.mean_ess = mean_of(ess);
   summary.acceptance = mean_of(acceptance);
   summary.mean_burn_in = mean_of(burn_in);
-  const double particle_steps = static_cast<double>(record.plan.particles) * static_cast<double>(record.predicted_steps);
+  const double particle_steps =
+      static_cast<double>(record.plan.particles) * static_cast<double>(record.predicted_steps);
   summary.ns_per_particle_step = particle_steps > 0 ? 1e9 * record.step_seconds / particle_steps : kNaN;
   if (truth == nullptr) return summary;
-  for (std::size_t d = 0; d < record.states.size(); ++d) summary.rmse.push_back(truth->known[d] ? rmse_of(record, *truth, d) : kNaN);
+  for (std::size_t d = 0; d < record.states.size(); ++d)
+    summary.rmse.push_back(truth->known[d] ? rmse_of(record, *truth, d) : kNaN);
   summary.position_error = position_error(record, *truth);
   return summary;
 }

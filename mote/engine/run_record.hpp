@@ -29,7 +29,7 @@ struct RunRecord {
   std::vector<EstimateRow> rows;
   std::size_t predicted_steps = 0;  ///< steps of the model, gaps included
   double step_seconds = 0;          ///< time in stepping and estimating
-  double wall_seconds = 0;          ///< time of the whole run, reading and writing included
+  double wall_seconds = 0;          ///< time of the whole run, reading included, before the files are written
   bool interrupted = false;         ///< ended before the data by a signal
 };
 
@@ -40,13 +40,13 @@ struct PositionError {
 
 /// The figures of a run.
 struct Summary {
-  double log_evidence;         ///< sum of the increments; -infinity after a collapse
+  double log_evidence;  ///< sum of the increments; -infinity after a collapse
   double mean_ess;
-  double acceptance;           ///< mean over steps with a chain; NaN without
-  double mean_burn_in;         ///< mean N_b over steps with a chain; NaN without
+  double acceptance;    ///< mean over steps with a chain; NaN without
+  double mean_burn_in;  ///< mean N_b over steps with a chain; NaN without
   std::size_t collapses;
   double ns_per_particle_step;
-  std::vector<double> rmse;    ///< by state, NaN where the truth does not say; empty without truth
+  std::vector<double> rmse;                     ///< by state, NaN where the truth does not say; empty without truth
   std::optional<PositionError> position_error;  ///< models with states x and y, when the truth has both
 };
 

@@ -34,7 +34,7 @@ double mean_of(const Filter& filter) { return component_moments(filter.weighted(
 // Bit for bit: run() adds nothing to the calls that its contract names.
 void expect_gaps_and_missing_rows(const std::function<std::unique_ptr<Filter>()>& make) {
   Recording recording;
-  recording.steps = {{3, {seen(1)}, {}}, {4, {}, {}}, {7, {seen(0.5), seen(-1)}, {}}};
+  recording.steps = {{3, {seen(1)}}, {4, {}}, {7, {seen(0.5), seen(-1)}}};
   const auto ran = make();
   const RunRecord record = recorded(*ran, recording);
   ASSERT_EQ(record.rows.size(), 3U);
@@ -75,9 +75,9 @@ TEST(Run, PredictsAcrossGapsAndStepsWithoutObservation) {
 TEST(Run, RowsOfAStepMultiply) {
   const LocalLevel precise{{1, 1, 0, 4}};
   Recording twice;
-  twice.steps = {{1, {seen(1), seen(2)}, {}}};
+  twice.steps = {{1, {seen(1), seen(2)}}};
   Recording once;
-  once.steps = {{1, {seen(1.5)}, {}}};
+  once.steps = {{1, {seen(1.5)}}};
   const auto a = make_sisr(kModel, kParticles, 3);
   const auto b = make_sisr(precise, kParticles, 3);
   const RunRecord ra = recorded(*a, twice);
@@ -112,7 +112,7 @@ struct Doomed {
 
 Recording four_steps() {
   Recording recording;
-  for (Step t = 1; t <= 4; ++t) recording.steps.push_back({t, {seen(0.1 * t)}, {}});
+  for (Step t = 1; t <= 4; ++t) recording.steps.push_back({t, {seen(0.1 * t)}});
   return recording;
 }
 
@@ -213,7 +213,7 @@ TEST(Run, StopsInsideALongGap) {
   std::atomic<bool> stop = true;
   const auto filter = make_sisr(kModel, kParticles, 1);
   Recording late;
-  late.steps = {{1000000000, {seen(0)}, {}}};
+  late.steps = {{1000000000, {seen(0)}}};
   RunRequest request = request_for(kModel.states());
   request.stop = &stop;
   const RunRecord record = run(*filter, Plan{}, late, request);

@@ -9,7 +9,9 @@ namespace mote {
 namespace {
 
 /// The part [first(k), first(k + 1)) of n that chain k of `chains` gets.
-std::size_t first(std::size_t n, std::size_t chains, std::size_t k) { return k * (n / chains) + std::min(k, n % chains); }
+std::size_t first(std::size_t n, std::size_t chains, std::size_t k) {
+  return k * (n / chains) + std::min(k, n % chains);
+}
 
 /// One chain in motion.
 class Chain {
@@ -26,7 +28,9 @@ class Chain {
     if (proposal == start_) return at_;
     ++report_.offered;
     // a current state of weight zero gives way to any other of positive weight
-    const bool accepted = log_weights_[at_] == -kInfinity ? log_weights_[proposal] > -kInfinity : log_uniforms_[proposal] < log_weights_[proposal] - log_weights_[at_];
+    const bool accepted = log_weights_[at_] == -kInfinity
+                              ? log_weights_[proposal] > -kInfinity
+                              : log_uniforms_[proposal] < log_weights_[proposal] - log_weights_[at_];
     if (accepted) {
       ++report_.accepted;
       at_ = proposal;
@@ -43,7 +47,8 @@ class Chain {
 
 }  // namespace
 
-ChainReport run_chains(const ChainLayout& layout, std::span<const double> log_weights, std::span<const double> log_uniforms, std::span<const Index> starts, std::span<Index> picks) {
+ChainReport run_chains(const ChainLayout& layout, std::span<const double> log_weights,
+                       std::span<const double> log_uniforms, std::span<const Index> starts, std::span<Index> picks) {
   ChainReport report;
   for (std::size_t k = 0; k < layout.chains; ++k) {
     Chain chain(log_weights, log_uniforms, report);

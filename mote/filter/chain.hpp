@@ -9,8 +9,8 @@
 
 namespace mote {
 
-/// The proposals of P chains in one array: Q that may be kept, chain by chain, then P N_b for burning in, chain by chain.
-/// A chain visits its burn-in proposals first, then its own part of the Q.
+/// The proposals of P chains in one array: Q that may be kept, chain by chain, then P N_b for burning in, chain by
+/// chain. A chain visits its burn-in proposals first, then its own part of the Q.
 struct ChainLayout {
   std::size_t kept;     ///< N, states kept over all chains
   std::size_t draws;    ///< Q >= N
@@ -30,17 +30,19 @@ struct ChainReport {
 ///   accept proposal x^ after x with probability min(w(x^) / w(x), 1):   log u < log w(x^) - log w(x)
 ///
 /// shape   log_weights, log_uniforms: (Q + P N_b,), log_uniforms[j] decides on proposal j; not all weights zero
-///         starts: (P,) proposal that each chain starts from, or empty: the first that it visits. A chain passes its own start
-///         over, which was drawn by its weight and is no independent proposal: offered again it would bias what is kept.
+///         starts: (P,) proposal that each chain starts from, or empty: the first that it visits. A chain passes its
+///         own start over, which was drawn by its weight and is no independent proposal: offered again it would bias
+///         what is kept.
 /// cost    O(Q + P N_b), one comparison a proposal
-/// source  IMH-HW (11), (16), (17)
-ChainReport run_chains(const ChainLayout& layout, std::span<const double> log_weights, std::span<const double> log_uniforms, std::span<const Index> starts, std::span<Index> picks);
+/// source  docs/filters.md (F13), (F14); IMH-HW (11), (16), (17)
+ChainReport run_chains(const ChainLayout& layout, std::span<const double> log_weights,
+                       std::span<const double> log_uniforms, std::span<const Index> starts, std::span<Index> picks);
 
 /// N_b after which an independent Metropolis chain is within `distance` of its law in total variation, at most `most`.
 ///
 ///   n = log(distance) / log(1 - mean / largest)
 ///
-/// source  Mengersen & Tweedie 1996, theorem 2.1: the chain converges like (1 - mean/largest)^n
+/// source  docs/filters.md (F18); Mengersen & Tweedie 1996, theorem 2.1: the chain converges like (1 - mean/largest)^n
 std::size_t burn_in_for(double mean_weight, double largest_weight, double distance, std::size_t most);
 
 }  // namespace mote

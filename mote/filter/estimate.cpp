@@ -11,7 +11,10 @@ namespace mote {
 template <class R>
 Moments moments(std::span<const R> values, std::span<const double> weights, double total, bool angle) {
   const auto mean_of = [&](auto&& f) {
-    return ordered_sum(values.size(), [&](std::size_t i) { return weights[i] > 0 ? weights[i] * f(static_cast<double>(values[i])) : 0.0; }) / total;
+    return ordered_sum(
+               values.size(),
+               [&](std::size_t i) { return weights[i] > 0 ? weights[i] * f(static_cast<double>(values[i])) : 0.0; }) /
+           total;
   };
   if (angle) {
     const double c = mean_of([](double v) { return std::cos(v); });

@@ -33,14 +33,15 @@ struct Inbox {
 };
 
 /// The m heaviest (or lightest) particles of [first, first + n), ties by index.
-inline std::vector<Index> extreme(std::span<const double> log_weights, std::size_t first, std::size_t n, std::size_t m, bool heaviest) {
+inline std::vector<Index> extreme(std::span<const double> log_weights, std::size_t first, std::size_t n, std::size_t m,
+                                  bool heaviest) {
   std::vector<Index> order(n);
   std::iota(order.begin(), order.end(), static_cast<Index>(first));
   const auto before = [&](Index a, Index b) {
     const double la = log_weights[a];
     const double lb = log_weights[b];
     if (la != lb) return heaviest ? la > lb : la < lb;
-    return a < b;
+    return heaviest ? a < b : a > b;  // so that heaviest and lightest never share a particle
   };
   std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(m), order.end(), before);
   order.resize(m);
@@ -51,21 +52,23 @@ inline std::vector<Index> extreme(std::span<const double> log_weights, std::size
 ///
 ///   swap     the particles change places, weights and all: the total weight is kept, nothing is biased
 ///   append   the receiver gets copies; sender and copy carry half the weight each: the total weight is kept
-///   replace  as append, but the copies take the places of the receiver's lightest M, whose weight is lost (PPF: impoverishment)
+///   replace  as append, but the copies take the places of the receiver's lightest M, whose weight is lost
 ///
 /// shape   M <= size of the smallest group (2 M for replace)
 /// returns the copies for append; swap and replace are done in place and return an empty inbox
-/// source  PPF section 3.4.1
+/// source  docs/filters.md (F23); PPF section 3.4.1
 template <class R>
 Inbox<R> send(Particles<R>& x, std::span<double> log_weights, const Ring& ring, const GroupOptions& options) {
   if (options.exchange == Exchange::kNone || ring.groups() < 2) return {};
   const std::size_t m = options.exchange_count;
   Inbox<R> inbox{m, Particles<R>(x.dimensions(), m * ring.groups()), std::vector<double>(m * ring.groups())};
   std::vector<std::vector<Index>> sent;
-  for (std::size_t k = 0; k < ring.groups(); ++k) sent.push_back(extreme(log_weights, ring.first(k), ring.size(k), m, true));
+  for (std::size_t k = 0; k < ring.groups(); ++k)
+    sent.push_back(extreme(log_weights, ring.first(k), ring.size(k), m, true));
   std::vector<std::vector<Index>> places = sent;
   if (options.exchange == Exchange::kReplace)
-    for (std::size_t k = 0; k < ring.groups(); ++k) places[k] = extreme(log_weights, ring.first(k), ring.size(k), m, false);
+    for (std::size_t k = 0; k < ring.groups(); ++k)
+      places[k] = extreme(log_weights, ring.first(k), ring.size(k), m, false);
   if (options.exchange != Exchange::kSwap)
     for (const auto& group : sent)
       for (const Index i : group) log_weights[i] -= std::log(2.0);

@@ -11,12 +11,16 @@
 
 namespace mote {
 
-/// Weight of a proposal by the mixtures over all parents:  w = p(y | x) sum_i p(x | x^i) / sum_i g(x | x^i, y); with g = p it is p(y | x).
+/// Weight of a proposal by the mixtures over all parents; with g = p it is p(y | x).
+///
+///   w = p(y | x) sum_i p(x | x^i) / sum_i g(x | x^i, y)
+///
 /// cost    O(N) a proposal when g is not p
-/// source  IMH-HW (12), IMH-OPT (17)
+/// source  docs/filters.md (F12); IMH-HW (12), IMH-OPT (17)
 struct MixtureWeight {
   template <class R, Model M, class G>
-  static double log_ratio(const M& model, const G& proposal, Step t, const StateOf<M, R>& x, std::size_t, const Particles<R>& parents, Rows<R> y, std::span<double> scratch) {
+  static double log_ratio(const M& model, const G& proposal, Step t, const StateOf<M, R>& x, std::size_t,
+                          const Particles<R>& parents, Rows<R> y, std::span<double> scratch) {
     if constexpr (std::is_same_v<G, Prior>) {
       return 0;
     } else {
@@ -29,30 +33,37 @@ struct MixtureWeight {
         return log_sum_exp(scratch).log_sum;
       };
       const double p = log_mixture([&](const auto& b) { return model.template log_transition<R>(t, x, b); });
-      return usable(p - log_mixture([&](const auto& b) { return proposal.template log_density<R>(model, t, x, b, y); }));
+      return usable(p -
+                    log_mixture([&](const auto& b) { return proposal.template log_density<R>(model, t, x, b, y); }));
     }
   }
 };
 
-/// Weight of a proposal x from parent k:  w = p(y | x) p(x | x^k) / (N g(k) g(x | x^k, y)); the division by N makes its mean the evidence.
-/// source  IMH-OPT (23)
+/// Weight of a proposal x from parent k; the division by N makes its mean the evidence.
+///
+///   w = p(y | x) p(x | x^k) / (N g(k) g(x | x^k, y))
+///
+/// source  docs/filters.md (F20); IMH-OPT (23)
 struct PairWeight {
   template <class R, Model M, class G>
-  static double log_ratio(const M& model, const G& proposal, Step t, const StateOf<M, R>& x, std::size_t k, const Particles<R>& parents, Rows<R> y, std::span<double>) {
+  static double log_ratio(const M& model, const G& proposal, Step t, const StateOf<M, R>& x, std::size_t k,
+                          const Particles<R>& parents, Rows<R> y, std::span<double>) {
     auto before = blank_state<R>(model);
     parents.read(k, before);
     return log_importance<R>(model, proposal, t, x, before, y);
   }
 };
 
-/// The filter without resampling: proposals from the mixture of the parents, a Metropolis chain over them, its last N states.
+/// The filter without resampling: proposals from the mixture of the parents, a Metropolis chain over them, its last N
+/// states.
 ///
 ///   parents k ~ g(k), proposals x ~ g(. | x^k_{t-1}, y), Q + P N_b of them; weights by `Weight`
-///   estimates sum w f(x) / sum w over all proposals; evidence = mean w; the chains' last N states are the unweighted set
+///   estimates sum w f(x) / sum w over all proposals; evidence = mean w
+///   the chains' last N states are the unweighted set
 ///
 /// shape   N kept, Q >= N drawn, P chains
 /// cost    O(Q + P N_b) a step (times N for MixtureWeight with g not p); memory about (2 D + 3) 8 (Q + P N_b) bytes
-/// source  IMH-HW section 4, IMH-OPT section IV
+/// source  docs/filters.md (F11) to (F20), (F27); IMH-HW section 4, IMH-OPT section IV
 template <Model M, class R, class G, class Weight>
 class MetropolisFilter final : public Filter {
  public:
@@ -88,10 +99,12 @@ class MetropolisFilter final : public Filter {
       starts = weighted_starts(t);
     }
     // the linear weights have served: their place takes the log uniforms
-    draws(t).for_each(Purpose::kAccept, 0, weights_.size(), [&](std::size_t j, auto& draw) { weights_[j] = std::log(draw.uniform()); });
+    draws(t).for_each(Purpose::kAccept, 0, weights_.size(),
+                      [&](std::size_t j, auto& draw) { weights_[j] = std::log(draw.uniform()); });
     const ChainReport chain = run_chains(layout_, log_weights_, weights_, starts, picks_);
     set_.gather(proposals_, picks_);
-    report.acceptance = chain.offered == 0 ? kNaN : static_cast<double>(chain.accepted) / static_cast<double>(chain.offered);
+    report.acceptance =
+        chain.offered == 0 ? kNaN : static_cast<double>(chain.accepted) / static_cast<double>(chain.offered);
     report.burn_in = layout_.burn_in;
     report.selected = true;
   }
@@ -103,8 +116,8 @@ class MetropolisFilter final : public Filter {
 
   Draws draws(Step t) const { return {seed_, static_cast<std::uint32_t>(t)}; }
 
-  /// Systematic draws by the weights of all proposals, dealt to the chains from a random one on: in order, each chain would start in
-  /// its own part of the cumulative sum, which depends on what that chain is about to visit.
+  /// Systematic draws by the weights of all proposals, dealt to the chains from a random one on: in order, each chain
+  /// would start in its own part of the cumulative sum, which depends on what that chain is about to visit.
   std::vector<Index> weighted_starts(Step t) const {
     std::vector<Index> starts(layout_.chains);
     systematic(weights_, draws(t), starts);
@@ -146,7 +159,8 @@ class MetropolisFilter final : public Filter {
         const auto x = proposal_.template propose<R>(model_, t, before, y, draw);
         if (j < from) continue;  // drawn again only to keep the block's stream in step
         proposals_.write(j, x);
-        log_weights_[j] = Weight::template log_ratio<R>(model_, proposal_, t, x, k, set_, y, scratch) - log_parent + log_likelihood<R>(model_, t, x, y);
+        log_weights_[j] = Weight::template log_ratio<R>(model_, proposal_, t, x, k, set_, y, scratch) - log_parent +
+                          log_likelihood<R>(model_, t, x, y);
       }
     }
   }
@@ -162,14 +176,18 @@ class MetropolisFilter final : public Filter {
       return {k, std::log(lookahead_->weights()[k] / lookahead_->total() * static_cast<double>(n))};
     }
     switch (options_.parents) {
-      case Parents::kPermuted: return {permutation(j % n), 0};
-      case Parents::kSweep: return {j % n, 0};
-      case Parents::kIid: break;
+      case Parents::kPermuted:
+        return {permutation(j % n), 0};
+      case Parents::kSweep:
+        return {j % n, 0};
+      case Parents::kIid:
+        break;
     }
     return {draw.index(n), 0};
   }
 
-  /// g(k) for the auxiliary filter: half uniform, half the likelihood of the parent moved with its noise at the median.
+  /// g(k) for the auxiliary filter: half uniform, half the likelihood of the parent moved with its noise at the median;
+  /// docs/filters.md (F21).
   void prepare_parents(Step t, Rows<R> y) {
     if (options_.parent_weights == ParentWeights::kUniform) return;
     struct Still {
@@ -184,7 +202,8 @@ class MetropolisFilter final : public Filter {
       parent_weights_[i] = log_likelihood<R>(model_, t, model_.template next<R>(t, before, still), y);
     }
     const LogSum sum = log_sum_exp(parent_weights_);
-    for (double& w : parent_weights_) w = 0.5 / static_cast<double>(n) + (std::isfinite(sum.largest) ? 0.5 * std::exp(w - sum.log_sum) : 0);
+    for (double& w : parent_weights_)
+      w = 0.5 / static_cast<double>(n) + (std::isfinite(sum.largest) ? 0.5 * std::exp(w - sum.log_sum) : 0);
     lookahead_.emplace(parent_weights_);
   }
 
@@ -209,8 +228,8 @@ class MetropolisFilter final : public Filter {
     return report;
   }
 
-  /// log of the mean weight over the sum of all. With `burn_in = auto` the mean is over the Q alone: how many more were drawn depends on
-  /// their weights, and a mean stopped by its own terms is biased.
+  /// log of the mean weight over the sum of all. With `burn_in = auto` the mean is over the Q alone: how many more were
+  /// drawn depends on their weights, and a mean stopped by its own terms is biased.
   double log_mean_share() const {
     const std::size_t n = options_.burn_in ? weights_.size() : layout_.draws;
     return std::log(ordered_sum(n, [&](std::size_t j) { return weights_[j]; }) / total_ / static_cast<double>(n));
@@ -242,14 +261,18 @@ class MetropolisFilter final : public Filter {
 
 /// The IMH filter with the mixture weights of IMH-HW (12).
 template <class R = double, class G = Prior, Model M>
-std::unique_ptr<Filter> make_imh(M model, std::size_t particles, std::uint64_t seed, const ChainOptions& options = {}, OnCollapse on_collapse = OnCollapse::kStop) {
-  return std::make_unique<MetropolisFilter<M, R, G, MixtureWeight>>(std::move(model), particles, seed, options, on_collapse);
+std::unique_ptr<Filter> make_imh(M model, std::size_t particles, std::uint64_t seed, const ChainOptions& options = {},
+                                 OnCollapse on_collapse = OnCollapse::kStop) {
+  return std::make_unique<MetropolisFilter<M, R, G, MixtureWeight>>(std::move(model), particles, seed, options,
+                                                                    on_collapse);
 }
 
 /// The auxiliary-variable IMH filter: pairs (x, k), any proposal, no sum over parents.
 template <class R = double, class G = Prior, Model M>
-std::unique_ptr<Filter> make_auxiliary(M model, std::size_t particles, std::uint64_t seed, const ChainOptions& options = {}, OnCollapse on_collapse = OnCollapse::kStop) {
-  return std::make_unique<MetropolisFilter<M, R, G, PairWeight>>(std::move(model), particles, seed, options, on_collapse);
+std::unique_ptr<Filter> make_auxiliary(M model, std::size_t particles, std::uint64_t seed,
+                                       const ChainOptions& options = {}, OnCollapse on_collapse = OnCollapse::kStop) {
+  return std::make_unique<MetropolisFilter<M, R, G, PairWeight>>(std::move(model), particles, seed, options,
+                                                                 on_collapse);
 }
 
 }  // namespace mote

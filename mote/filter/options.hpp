@@ -11,7 +11,7 @@ namespace mote {
 /// What to do when every particle has weight zero.
 enum class OnCollapse {
   kStop,   ///< report it; the run ends
-  kKeep,   ///< go on with the proposed particles, equally weighted, as if the step had not been observed
+  kKeep,   ///< go on with the proposed particles, equally weighted
   kReset,  ///< draw the particles anew from the prior and weigh them by the step's observation
 };
 
@@ -26,8 +26,9 @@ struct SelectionOptions {
 enum class Parents {
   kIid,       ///< uniform, independent: the papers' first choice
   kPermuted,  ///< each once, in a random order: less variance
-  kSweep,     ///< each once, in chain order, which the papers allow. Not consistent: neighbours descend from neighbours, so every stretch of
-              ///< the chain is a filter of its own whose evidence counts for nothing, and a bias stays however large N is
+  kSweep,  ///< each once, in chain order, which the papers allow. Not consistent: neighbours descend from neighbours,
+           ///< so every stretch of the chain is a filter of its own whose evidence counts for nothing, and a bias stays
+           ///< however large N is
 };
 
 enum class ChainStart { kFirst, kWeighted };
@@ -38,9 +39,9 @@ enum class ParentWeights {
 
 /// The Metropolis chains of the IMH filters.
 struct ChainOptions {
-  std::size_t draws = 0;               ///< Q, proposals that may be kept; 0 = N
+  std::size_t draws = 0;                   ///< Q, proposals that may be kept; 0 = N
   std::optional<std::size_t> burn_in = 0;  ///< N_b per chain; empty = chosen at every step from mean and largest weight
-  std::size_t chains = 1;              ///< P
+  std::size_t chains = 1;                  ///< P
   Parents parents = Parents::kIid;
   ChainStart start = ChainStart::kFirst;
   ParentWeights parent_weights = ParentWeights::kUniform;  ///< auxiliary filter only
@@ -50,11 +51,12 @@ enum class Exchange { kNone, kAppend, kReplace, kSwap };
 
 /// The groups of a distributed filter, on a ring.
 struct GroupOptions {
-  std::size_t groups = 1;           ///< K
-  bool global = false;              ///< resample over all particles instead of inside each group
+  std::size_t groups = 1;  ///< K
+  bool global = false;     ///< resample over all particles instead of inside each group
   Exchange exchange = Exchange::kNone;
-  std::size_t exchange_count = 1;   ///< M, the heaviest particles sent to the next group
-  bool carry_group_weights = true;  ///< false: every group restarts with weight 1/K after resampling, as PPF's Alg. 5 does
+  std::size_t exchange_count = 1;  ///< M, the heaviest particles sent to the next group
+  bool carry_group_weights =
+      true;  ///< false: every group restarts with weight N_k / N after resampling, as PPF's Alg. 5 does
 };
 
 }  // namespace mote

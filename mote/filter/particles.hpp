@@ -19,7 +19,8 @@ inline constexpr std::size_t kMostParticles = std::size_t{1} << 28U;
 template <class R>
 class Particles {
  public:
-  Particles(std::size_t dimensions, std::size_t count) : count_(count), components_(dimensions, std::vector<R>(count)) {}
+  Particles(std::size_t dimensions, std::size_t count)
+      : count_(count), components_(dimensions, std::vector<R>(count)) {}
 
   std::size_t size() const { return count_; }
   std::size_t dimensions() const { return components_.size(); }

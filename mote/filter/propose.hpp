@@ -10,7 +10,8 @@ namespace mote {
 /// Draws x_0 of every particle from the prior.
 template <Model M, class R>
 void draw_prior(const M& model, Particles<R>& x, const Draws& draws, Purpose purpose = Purpose::kPrior) {
-  draws.for_each<R>(purpose, 0, x.size(), [&](std::size_t i, auto& draw) { x.write(i, model.template initial<R>(draw)); });
+  draws.for_each<R>(purpose, 0, x.size(),
+                    [&](std::size_t i, auto& draw) { x.write(i, model.template initial<R>(draw)); });
 }
 
 /// Moves particle i by the model: x_i ~ p(. | x_i).
@@ -28,19 +29,22 @@ inline double usable(double log_density) { return log_density < kInfinity ? log_
 
 /// log [ p(x | before) / g(x | before, y) ]: 0 for the prior, which is its own proposal.
 template <class R, Model M, class G>
-double log_importance(const M& model, const G& proposal, Step t, const StateOf<M, R>& x, const StateOf<M, R>& before, Rows<R> y) {
+double log_importance(const M& model, const G& proposal, Step t, const StateOf<M, R>& x, const StateOf<M, R>& before,
+                      Rows<R> y) {
   if constexpr (std::is_same_v<G, Prior>) {
     return 0;
   } else {
-    return usable(static_cast<double>(model.template log_transition<R>(t, x, before) - proposal.template log_density<R>(model, t, x, before, y)));
+    return usable(static_cast<double>(model.template log_transition<R>(t, x, before) -
+                                      proposal.template log_density<R>(model, t, x, before, y)));
   }
 }
 
 /// Proposes in place, x_i ~ g(. | x_i, y), and adds log [p(x_i | before) / g(x_i | before, y)] to the log weights.
 ///
-/// source  IMH-HW (4), without its likelihood factor
+/// source  docs/filters.md (F3), (F4); IMH-HW (4), without its likelihood factor
 template <Model M, class R, class G>
-void propose(const M& model, const G& proposal, Step t, Rows<R> y, Particles<R>& x, std::span<double> log_weights, const Draws& draws) {
+void propose(const M& model, const G& proposal, Step t, Rows<R> y, Particles<R>& x, std::span<double> log_weights,
+             const Draws& draws) {
   auto before = blank_state<R>(model);
   draws.for_each<R>(Purpose::kMove, 0, x.size(), [&](std::size_t i, auto& draw) {
     x.read(i, before);

@@ -11,7 +11,8 @@
 
 namespace mote {
 
-/// The weighted cloud of an importance filter. Carried log weights have log-sum-exp 0 (in the mean, with w / a selection).
+/// The weighted cloud of an importance filter. Carried log weights have log-sum-exp 0 (in the mean, with w / a
+/// selection).
 template <class R>
 struct Cloud {
   Particles<R> x;
@@ -33,7 +34,8 @@ struct Cloud {
 ///
 /// shape   weights: linear, overwritten; not all zero. log_weights: (n,)
 /// source  IMH-OPT II-B
-inline std::vector<Index> draw_survivors(std::span<double> weights, std::span<double> log_weights, double log_mass, const SelectionOptions& options, const Draws& draws) {
+inline std::vector<Index> draw_survivors(std::span<double> weights, std::span<double> log_weights, double log_mass,
+                                         const SelectionOptions& options, const Draws& draws) {
   const bool plain = options.exponent == 1;
   const auto sum = [&] { return ordered_sum(weights.size(), [&](std::size_t i) { return weights[i]; }); };
   const double total = sum();
@@ -46,7 +48,8 @@ inline std::vector<Index> draw_survivors(std::span<double> weights, std::span<do
   if (plain) return ancestors;
   const double selection = sum();
   for (double& w : weights) w = std::pow(w, 1 / options.exponent - 1);  // w / a of the particle, up to the totals
-  for (std::size_t j = 0; j < ancestors.size(); ++j) log_weights[j] = spread + std::log(weights[ancestors[j]] * selection / total);
+  for (std::size_t j = 0; j < ancestors.size(); ++j)
+    log_weights[j] = spread + std::log(weights[ancestors[j]] * selection / total);
   return ancestors;
 }
 
@@ -54,7 +57,8 @@ inline std::vector<Index> draw_survivors(std::span<double> weights, std::span<do
 ///
 /// shape   cloud.weights: linear, those of [first, first + n) not all zero; overwritten
 template <class R>
-void resample(Cloud<R>& cloud, std::size_t first, std::size_t n, double log_mass, const SelectionOptions& options, const Draws& draws) {
+void resample(Cloud<R>& cloud, std::size_t first, std::size_t n, double log_mass, const SelectionOptions& options,
+              const Draws& draws) {
   const auto part = [&](std::vector<double>& all) { return std::span<double>(all).subspan(first, n); };
   std::vector<Index> ancestors = draw_survivors(part(cloud.weights), part(cloud.log_weights), log_mass, options, draws);
   for (Index& a : ancestors) a += static_cast<Index>(first);
@@ -70,7 +74,7 @@ class Selector {
   virtual bool select(Cloud<R>& cloud, double ess, const Draws& draws) = 0;
 };
 
-/// SISR: resamples the whole set when its effective sample size is low.
+/// SISR: resamples the whole set when its effective sample size is low; docs/filters.md (F8).
 template <class R>
 class WholeSelector final : public Selector<R> {
  public:
@@ -88,7 +92,9 @@ class WholeSelector final : public Selector<R> {
 
 /// The distributed filter: exchanges particles between neighbouring groups, then resamples inside each group.
 ///
-/// source  PPF fig. 3.4; group weights are carried (properly weighted, evidence unbiased) or reset at each resampling
+/// Group weights are carried (properly weighted, evidence unbiased but for replace) or reset at each resampling.
+///
+/// source  docs/filters.md (F22) to (F24); PPF fig. 3.4
 template <class R>
 class GroupSelector final : public Selector<R> {
  public:
@@ -98,15 +104,26 @@ class GroupSelector final : public Selector<R> {
     const std::size_t n = cloud.size();
     const Ring ring(n, groups_.groups);
     const Inbox<R> inbox = send(cloud.x, cloud.log_weights, ring, groups_);
+    if (groups_.exchange == Exchange::kReplace) share_out_what_was_lost(cloud.log_weights);
     bool any = false;
-    for (std::size_t k = 0; k < ring.groups(); ++k) any = select_group(cloud, ring.first(k), ring.size(k), inbox, k, draws) || any;
+    for (std::size_t k = 0; k < ring.groups(); ++k)
+      any = select_group(cloud, ring.first(k), ring.size(k), inbox, k, draws) || any;
     if (!groups_.carry_group_weights && any) reset(cloud, ring);
     return any;
   }
 
  private:
-  bool select_group(Cloud<R>& cloud, std::size_t first, std::size_t n, const Inbox<R>& inbox, std::size_t k, const Draws& draws) {
-    if (groups_.exchange == Exchange::kAppend && groups_.groups > 1) return select_appended(cloud, first, n, inbox, k, draws);
+  /// The weight of replaced particles goes to all others in proportion.
+  static void share_out_what_was_lost(std::span<double> log_weights) {
+    const double left = log_sum_exp(log_weights).log_sum;
+    if (!std::isfinite(left)) return;
+    for (double& l : log_weights) l -= left;
+  }
+
+  bool select_group(Cloud<R>& cloud, std::size_t first, std::size_t n, const Inbox<R>& inbox, std::size_t k,
+                    const Draws& draws) {
+    if (groups_.exchange == Exchange::kAppend && groups_.groups > 1)
+      return select_appended(cloud, first, n, inbox, k, draws);
     const std::span<double> logs(cloud.log_weights.data() + first, n);
     const std::span<double> weights(cloud.weights.data() + first, n);
     const LogSum mass = log_sum_exp(logs);
@@ -117,16 +134,20 @@ class GroupSelector final : public Selector<R> {
     return true;
   }
 
-  /// Own particles and received ones compete for the group's n places, whatever the effective sample size: n + M must become n again.
-  bool select_appended(Cloud<R>& cloud, std::size_t first, std::size_t n, const Inbox<R>& inbox, std::size_t k, const Draws& draws) {
+  /// Own particles and received ones compete for the group's n places, whatever the effective sample size: n + M must
+  /// become n again.
+  bool select_appended(Cloud<R>& cloud, std::size_t first, std::size_t n, const Inbox<R>& inbox, std::size_t k,
+                       const Draws& draws) {
     const std::size_t m = inbox.count;
     Cloud<R> both(cloud.x.dimensions(), n + m);
     for (std::size_t d = 0; d < cloud.x.dimensions(); ++d) {
       std::copy_n(cloud.x.component(d).begin() + static_cast<std::ptrdiff_t>(first), n, both.x.component(d).begin());
-      std::copy_n(inbox.x.component(d).begin() + static_cast<std::ptrdiff_t>(k * m), m, both.x.component(d).begin() + static_cast<std::ptrdiff_t>(n));
+      std::copy_n(inbox.x.component(d).begin() + static_cast<std::ptrdiff_t>(k * m), m,
+                  both.x.component(d).begin() + static_cast<std::ptrdiff_t>(n));
     }
     std::copy_n(cloud.log_weights.begin() + static_cast<std::ptrdiff_t>(first), n, both.log_weights.begin());
-    std::copy_n(inbox.log_weights.begin() + static_cast<std::ptrdiff_t>(k * m), m, both.log_weights.begin() + static_cast<std::ptrdiff_t>(n));
+    std::copy_n(inbox.log_weights.begin() + static_cast<std::ptrdiff_t>(k * m), m,
+                both.log_weights.begin() + static_cast<std::ptrdiff_t>(n));
     const LogSum mass = log_sum_exp(both.log_weights);
     if (!std::isfinite(mass.largest)) return false;
     exponentiate(both.log_weights, mass.largest, both.weights);

@@ -1,5 +1,6 @@
 #pragma once
-/// Sequential importance sampling with resampling (SISR), and the distributed filter that differs from it in selection alone.
+/// Sequential importance sampling with resampling (SISR), and the distributed filter that differs from it in selection
+/// alone.
 
 #include <memory>
 
@@ -10,17 +11,18 @@ namespace mote {
 
 /// A filter of particles with importance weights.
 ///
-///   x^i ~ g(. | x^i_{t-1}, y);   w^i = w^i_{t-1} p(y | x^i) p(x^i | x^i_{t-1}) / g(x^i | x^i_{t-1}, y);   evidence = sum w^i
-///   estimates from (x, w) before selection
+///   x^i ~ g(. | x^i_{t-1}, y);   w^i = W^i_{t-1} p(y | x^i) p(x^i | x^i_{t-1}) / g(x^i | x^i_{t-1}, y)
+///   evidence = sum w^i;   estimates from (x, w) before selection
 ///
 /// shape   N particles; R is the number type of states and likelihoods, weights are double
 /// error   none; a collapsed step is reported, see OnCollapse
 /// cost    O(N) a step; memory about (2 D + 3) 8 N bytes
-/// source  IMH-HW (4)-(6); FPGA (5)-(7)
+/// source  docs/filters.md (F3) to (F6), (F27); IMH-HW (4)-(6); FPGA (5)-(7)
 template <Model M, class R = double, class G = Prior>
 class ImportanceFilter final : public Filter {
  public:
-  ImportanceFilter(M model, std::size_t particles, std::uint64_t seed, std::unique_ptr<Selector<R>> selector, OnCollapse on_collapse)
+  ImportanceFilter(M model, std::size_t particles, std::uint64_t seed, std::unique_ptr<Selector<R>> selector,
+                   OnCollapse on_collapse)
       : model_(std::move(model)),
         proposal_(make_proposal<G>(model_)),
         seed_(seed),
@@ -32,7 +34,8 @@ class ImportanceFilter final : public Filter {
 
   StepReport predict(Step t) override {
     move(model_, t, cloud_.x, draws(t));
-    // carried weights stay as they are: after a w / a selection their sum is 1 only in the mean, and belongs to the evidence
+    // carried weights stay as they are: after a w / a selection their sum is 1 only in the mean, and belongs to the
+    // evidence
     return judged(judge(cloud_.log_weights, cloud_.weights), false);
   }
 
@@ -45,7 +48,9 @@ class ImportanceFilter final : public Filter {
     return recovered(t, y);
   }
 
-  void select(Step t, StepReport& report) override { report.selected = selector_->select(cloud_, report.ess, draws(t)); }
+  void select(Step t, StepReport& report) override {
+    report.selected = selector_->select(cloud_, report.ess, draws(t));
+  }
 
   WeightedSet weighted() const override { return {&cloud_.x, cloud_.weights, total_}; }
 
@@ -90,15 +95,20 @@ class ImportanceFilter final : public Filter {
 
 /// SISR: importance filter that resamples the whole set when its effective sample size falls to the threshold.
 template <class R = double, class G = Prior, Model M>
-std::unique_ptr<Filter> make_sisr(M model, std::size_t particles, std::uint64_t seed, const SelectionOptions& selection = {}, OnCollapse on_collapse = OnCollapse::kStop) {
-  return std::make_unique<ImportanceFilter<M, R, G>>(std::move(model), particles, seed, std::make_unique<WholeSelector<R>>(selection), on_collapse);
+std::unique_ptr<Filter> make_sisr(M model, std::size_t particles, std::uint64_t seed,
+                                  const SelectionOptions& selection = {}, OnCollapse on_collapse = OnCollapse::kStop) {
+  return std::make_unique<ImportanceFilter<M, R, G>>(std::move(model), particles, seed,
+                                                     std::make_unique<WholeSelector<R>>(selection), on_collapse);
 }
 
 /// The distributed filter: K groups on a ring, selection inside groups or over all (then it is SISR).
 template <class R = double, class G = Prior, Model M>
-std::unique_ptr<Filter> make_distributed(M model, std::size_t particles, std::uint64_t seed, const GroupOptions& groups, const SelectionOptions& selection = {}, OnCollapse on_collapse = OnCollapse::kStop) {
+std::unique_ptr<Filter> make_distributed(M model, std::size_t particles, std::uint64_t seed, const GroupOptions& groups,
+                                         const SelectionOptions& selection = {},
+                                         OnCollapse on_collapse = OnCollapse::kStop) {
   if (groups.global) return make_sisr<R, G>(std::move(model), particles, seed, selection, on_collapse);
-  return std::make_unique<ImportanceFilter<M, R, G>>(std::move(model), particles, seed, std::make_unique<GroupSelector<R>>(selection, groups), on_collapse);
+  return std::make_unique<ImportanceFilter<M, R, G>>(
+      std::move(model), particles, seed, std::make_unique<GroupSelector<R>>(selection, groups), on_collapse);
 }
 
 }  // namespace mote

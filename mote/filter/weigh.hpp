@@ -9,7 +9,7 @@
 
 namespace mote {
 
-/// sum over the rows of a step of log p(y | x).
+/// sum over the rows of a step of log p(y | x); docs/filters.md (F26).
 template <class R, Model M>
 double log_likelihood(const M& model, Step t, const StateOf<M, R>& x, Rows<R> y) {
   double sum = 0;

@@ -23,11 +23,11 @@ struct BearingsWide;
 ///   x' = x + T vx + T^2/2 u,  vx' = damping vx + T u,  (y likewise),   u ~ N(0, sigma_u^2) in each axis
 ///   z  = atan2(y - sensor_y, x - sensor_x) - sensor_heading + r,   r ~ sigma_r times N(0, 1) or Student's t(dof)
 ///
-/// shape   state (x, vx, y, vy) in m, m/s; one bearing a row, in rad, relative to the sensor's heading; several rows a step
-/// source  MIXED (1)-(3): T = 1 s, damping 1, the sensor at the origin
+/// shape   state (x, vx, y, vy) in m, m/s; a row is one bearing in rad, relative to the sensor's heading
+/// source  MIXED (1)-(3): T = 1 s, damping 1, the sensor at the origin; docs/models.md
 ///
-/// The noise has two dimensions in a state of four: p(x_t | x_{t-1}) has no density there. log_transition is the density of u
-/// (Density::kNoise): ratios p/g are right, mixture sums over parents are not.
+/// The noise has two dimensions in a state of four: p(x_t | x_{t-1}) has no density there. log_transition is the
+/// density of u (Density::kNoise): ratios p/g are right, mixture sums over parents are not; docs/filters.md (F31).
 struct Bearings {
   using Parameters = BearingsParameters;
   template <class S>
@@ -36,8 +36,10 @@ struct Bearings {
 
   static constexpr std::array<Parameter<Parameters>, 13> kParameters{{
       {"period", &Parameters::period, Range::kPositive, "s", "time between steps"},
-      {"sigma_u", &Parameters::sigma_u, Range::kNotNegative, "m/s^2", "standard deviation of the acceleration, per axis"},
-      {"sigma_r", &Parameters::sigma_r, Range::kPositive, "rad", "standard deviation (scale, with dof) of the bearing error"},
+      {"sigma_u", &Parameters::sigma_u, Range::kNotNegative, "m/s^2",
+       "standard deviation of the acceleration, per axis"},
+      {"sigma_r", &Parameters::sigma_r, Range::kPositive, "rad",
+       "standard deviation (scale, with dof) of the bearing error"},
       {"damping", &Parameters::damping, Range::kAny, "", "factor on the velocity per step"},
       {"x0", &Parameters::x0, Range::kAny, "m", "mean of x at t = 0"},
       {"vx0", &Parameters::vx0, Range::kAny, "m/s", "mean of vx at t = 0"},
@@ -86,7 +88,8 @@ struct Bearings {
     const S T = S(p.period);
     const S half = S(0.5 * p.period * p.period);
     const S d = S(p.damping);
-    return {before[0] + T * before[1] + half * ux, d * before[1] + T * ux, before[2] + T * before[3] + half * uy, d * before[3] + T * uy};
+    return {before[0] + T * before[1] + half * ux, d * before[1] + T * ux, before[2] + T * before[3] + half * uy,
+            d * before[3] + T * uy};
   }
 
   template <class S>
@@ -95,7 +98,8 @@ struct Bearings {
     if (!y.seen(0)) return S(0);
     const S azimuth = atan2(x[2] - y[2], x[0] - y[1]);
     const S residual = wrap(y[0] + y[3] - azimuth);
-    return p.dof > 0 ? student_log_density(residual, p.sigma_r, p.dof) : normal_log_density(residual, p.sigma_r * p.sigma_r);
+    return p.dof > 0 ? student_log_density(residual, p.sigma_r, p.dof)
+                     : normal_log_density(residual, p.sigma_r * p.sigma_r);
   }
 
   /// The density of the acceleration that leads from `before` to `x`, read off the velocities.
@@ -133,12 +137,14 @@ struct Bearings {
   }
 };
 
-/// A proposal in noise space: accelerations three times wider than the model's, for targets that manoeuvre more than it says.
+/// A proposal in noise space: accelerations three times wider than the model's, for targets that manoeuvre more than it
+/// says.
 ///
 ///   u ~ g = N(0, (3 sigma_u)^2 I),   weight p(z | x) p(u) / g(u)
 struct BearingsWide {
   static constexpr std::string_view kName = "wide";
-  static constexpr std::string_view kMeaning = "accelerations drawn three times wider than the model's, weighted in noise space";
+  static constexpr std::string_view kMeaning =
+      "accelerations drawn three times wider than the model's, weighted in noise space";
   static constexpr double kWider = 3;
 
   template <class S, class D>

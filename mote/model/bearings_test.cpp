@@ -34,7 +34,8 @@ TEST(Bearings, WideProposalWeighsInNoiseSpace) {
   const Bearings model;
   const std::array<double, 4> before{0.2, 0.001, 0.3, -0.002};
   const auto x = model.moved<double>(before, 0.0005, -0.0015);
-  const double ratio = model.log_transition<double>(1, x, before) - BearingsWide{}.log_density<double>(model, 1, x, before, {});
+  const double ratio =
+      model.log_transition<double>(1, x, before) - BearingsWide{}.log_density<double>(model, 1, x, before, {});
   const double u2 = (0.0005 * 0.0005 + 0.0015 * 0.0015) / (model.p.sigma_u * model.p.sigma_u);
   EXPECT_NEAR(ratio, 2 * std::log(3.0) - 0.5 * u2 * (1 - 1 / 9.0), 1e-9);
 }

@@ -17,15 +17,16 @@ struct DoaParameters {
 
 /// A source at direction theta, with velocity-to-range ratio q and heading phi, seen in frames of M directions:
 ///
-///   tan theta' = (sin theta + q sin phi) / (cos theta + q cos phi) + v1,   theta' in the half plane of the undisturbed direction
+///   tan theta' = (sin theta + q sin phi) / (cos theta + q cos phi) + v1,   in the undisturbed direction's half plane
 ///   q'   = q / sqrt(1 + q^2 + 2 q cos(theta - phi)) + v2
 ///   phi' = phi + v3
-///   y_m  = theta + N(0, sigma_o^2), m = 1..M:   log p(y | theta) = K - sum_m wrap(y_m - theta)^2 / (2 sigma_o^2)
+///   log p(y | theta) = K - sum_m wrap(y_m - theta)^2 / (2 sigma_o^2),   m = 1..M
 ///
 /// shape   state (theta, q, phi), angles in rad and wrapped; a frame (M,), missing entries skipped
-/// source  IMH-HW (14), (15)
+/// source  IMH-HW (14), (15); docs/models.md, its density docs/filters.md (F32)
 ///
-/// v1 sits on tan theta, so the density of theta' carries the Jacobian sec^2 theta' and vanishes in the other half plane.
+/// v1 sits on tan theta, so the density of theta' carries the Jacobian sec^2 theta' and vanishes in the other half
+/// plane.
 struct Doa {
   using Parameters = DoaParameters;
   template <class S>
@@ -33,7 +34,8 @@ struct Doa {
   using Proposals = std::tuple<Prior>;
 
   static constexpr std::array<Parameter<Parameters>, 10> kParameters{{
-      {"sigma_theta", &Parameters::sigma_theta, Range::kNotNegative, "", "standard deviation of the noise on tan theta"},
+      {"sigma_theta", &Parameters::sigma_theta, Range::kNotNegative, "",
+       "standard deviation of the noise on tan theta"},
       {"sigma_q", &Parameters::sigma_q, Range::kNotNegative, "1/step", "standard deviation of the noise on q"},
       {"sigma_phi", &Parameters::sigma_phi, Range::kNotNegative, "rad", "standard deviation of the noise on phi"},
       {"sigma_o", &Parameters::sigma_o, Range::kPositive, "rad", "standard deviation of one measured direction"},
@@ -51,10 +53,13 @@ struct Doa {
   std::vector<Quantity> states() const { return {{"theta", "rad", true}, {"q", "1/step"}, {"phi", "rad", true}}; }
   std::vector<Column> columns() const {
     std::vector<Column> all;
-    for (std::size_t m = 1; m <= frame; ++m) all.push_back({"doa" + std::to_string(m), "rad"});
+    for (std::size_t m = 1; m <= frame; ++m)
+      all.push_back({.name = "doa" + std::to_string(m), .unit = "rad", .state = "theta"});
     return all;
   }
-  Density density() const { return p.sigma_theta > 0 && p.sigma_q > 0 && p.sigma_phi > 0 ? Density::kState : Density::kNone; }
+  Density density() const {
+    return p.sigma_theta > 0 && p.sigma_q > 0 && p.sigma_phi > 0 ? Density::kState : Density::kNone;
+  }
 
   template <class S, class D>
   State<S> initial(D& draw) const {
@@ -72,7 +77,8 @@ struct Doa {
     const S v1 = S(p.sigma_theta) * draw.normal();
     const S v2 = S(p.sigma_q) * draw.normal();
     const S v3 = S(p.sigma_phi) * draw.normal();
-    // atan2(num + v den, den) has tangent num/den + v and keeps the sign of den: the quadrant of the undisturbed direction
+    // atan2(num + v den, den) has tangent num/den + v and keeps the sign of den: the quadrant of the undisturbed
+    // direction
     return {atan2(u.sine + v1 * u.cosine, u.cosine), u.q + v2, wrap(before[2] + v3)};
   }
 

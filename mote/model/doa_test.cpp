@@ -23,14 +23,16 @@ TEST(Doa, KeepsTheQuadrantOfTheUndisturbedDirection) {
   EXPECT_NEAR(x[1], 0.05 / std::sqrt(1 + 0.0025 + 0.1 * std::cos(2.0)), 1e-12);
 }
 
-// referee  quadrature over theta: the density with its Jacobian integrates to one on its branch and vanishes on the other
+// referee  quadrature over theta: the density with its Jacobian integrates to one on its branch and vanishes on the
+// other
 TEST(Doa, ThetaDensityIntegratesToOne) {
   Doa model;
   model.p.sigma_theta = 0.3;
   const std::array<double, 3> before{2.5, 0.1, 0.4};
   laws::ListedDraw<double> still{std::vector<double>(3, 0.0), {}};
   auto x = model.next<double>(1, before, still);
-  const double rest = normal_log_density(0.0, model.p.sigma_q * model.p.sigma_q) + normal_log_density(0.0, model.p.sigma_phi * model.p.sigma_phi);
+  const double rest = normal_log_density(0.0, model.p.sigma_q * model.p.sigma_q) +
+                      normal_log_density(0.0, model.p.sigma_phi * model.p.sigma_phi);
   double mass = 0;
   const double h = 1e-4;
   for (x[0] = -kPi + h / 2; x[0] < kPi; x[0] += h) {

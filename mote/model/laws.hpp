@@ -3,11 +3,11 @@
 ///
 /// Two number types stand in for those of later engines: a recording Node (a graph) and a Pack (a vector of four).
 
-#include <gtest/gtest.h>
-
 #include <array>
 #include <cmath>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "mote/model/model.hpp"
 
@@ -30,7 +30,8 @@ class Tape {
     std::size_t next_input = 0;
     for (const auto& step : steps_) {
       const auto at = [&](int i) { return i < 0 ? step.value : values[static_cast<std::size_t>(i)]; };
-      values.push_back(step.operation == nullptr ? inputs.at(next_input++) : step.operation(at(step.a), at(step.b), at(step.c)));
+      values.push_back(step.operation == nullptr ? inputs.at(next_input++)
+                                                 : step.operation(at(step.a), at(step.b), at(step.c)));
     }
     return values;
   }
@@ -52,24 +53,53 @@ class Tape {
 struct Node {
   int id;
   Node() : id(-1) {}
-  explicit Node(double constant) : id(record([](double value, double, double) { return value; }, -1, -1, -1, constant)) {}
-  static int record(Tape::Operation f, int a, int b = -1, int c = -1, double value = 0) { return Tape::current()->record(f, a, b, c, value); }
+  explicit Node(double constant)
+      : id(record([](double value, double, double) { return value; }, -1, -1, -1, constant)) {}
+  static int record(Tape::Operation f, int a, int b = -1, int c = -1, double value = 0) {
+    return Tape::current()->record(f, a, b, c, value);
+  }
   static Node make(Tape::Operation f, Node a, Node b = {}, Node c = {}) {
     Node node;
     node.id = record(f, a.id, b.id, c.id);
     return node;
   }
-  friend Node operator+(Node a, Node b) { return make([](double x, double y, double) { return x + y; }, a, b); }
-  friend Node operator-(Node a, Node b) { return make([](double x, double y, double) { return x - y; }, a, b); }
-  friend Node operator*(Node a, Node b) { return make([](double x, double y, double) { return x * y; }, a, b); }
-  friend Node operator/(Node a, Node b) { return make([](double x, double y, double) { return x / y; }, a, b); }
-  friend Node operator-(Node a) { return make([](double x, double, double) { return -x; }, a); }
-  friend Node less(Node a, Node b) { return make([](double x, double y, double) { return x < y ? 1.0 : 0.0; }, a, b); }
-  friend Node select(Node c, Node a, Node b) { return make([](double k, double x, double y) { return k != 0 ? x : y; }, c, a, b); }
-  friend Node atan2(Node a, Node b) { return make([](double x, double y, double) { return std::atan2(x, y); }, a, b); }
-#define MOTE_UNARY(f) \
-  friend Node f(Node a) { return make([](double x, double, double) { return std::f(x); }, a); }
-  MOTE_UNARY(sqrt) MOTE_UNARY(exp) MOTE_UNARY(log) MOTE_UNARY(sin) MOTE_UNARY(cos) MOTE_UNARY(tan) MOTE_UNARY(atan) MOTE_UNARY(abs) MOTE_UNARY(floor)
+  friend Node operator+(Node a, Node b) {
+    return make([](double x, double y, double) { return x + y; }, a, b);
+  }
+  friend Node operator-(Node a, Node b) {
+    return make([](double x, double y, double) { return x - y; }, a, b);
+  }
+  friend Node operator*(Node a, Node b) {
+    return make([](double x, double y, double) { return x * y; }, a, b);
+  }
+  friend Node operator/(Node a, Node b) {
+    return make([](double x, double y, double) { return x / y; }, a, b);
+  }
+  friend Node operator-(Node a) {
+    return make([](double x, double, double) { return -x; }, a);
+  }
+  friend Node less(Node a, Node b) {
+    return make([](double x, double y, double) { return x < y ? 1.0 : 0.0; }, a, b);
+  }
+  friend Node select(Node c, Node a, Node b) {
+    return make([](double k, double x, double y) { return k != 0 ? x : y; }, c, a, b);
+  }
+  friend Node atan2(Node a, Node b) {
+    return make([](double x, double y, double) { return std::atan2(x, y); }, a, b);
+  }
+#define MOTE_UNARY(f)                                                   \
+  friend Node f(Node a) {                                               \
+    return make([](double x, double, double) { return std::f(x); }, a); \
+  }
+  MOTE_UNARY(sqrt)
+  MOTE_UNARY(exp)
+  MOTE_UNARY(log)
+  MOTE_UNARY(sin)
+  MOTE_UNARY(cos)
+  MOTE_UNARY(tan)
+  MOTE_UNARY(atan)
+  MOTE_UNARY(abs)
+  MOTE_UNARY(floor)
 #undef MOTE_UNARY
 };
 
@@ -85,17 +115,43 @@ struct Pack {
     for (std::size_t i = 0; i < kLanes; ++i) out.v[i] = f(packs.v[i]...);
     return out;
   }
-  friend Pack operator+(Pack a, Pack b) { return map([](double x, double y) { return x + y; }, a, b); }
-  friend Pack operator-(Pack a, Pack b) { return map([](double x, double y) { return x - y; }, a, b); }
-  friend Pack operator*(Pack a, Pack b) { return map([](double x, double y) { return x * y; }, a, b); }
-  friend Pack operator/(Pack a, Pack b) { return map([](double x, double y) { return x / y; }, a, b); }
-  friend Pack operator-(Pack a) { return map([](double x) { return -x; }, a); }
-  friend Pack less(Pack a, Pack b) { return map([](double x, double y) { return x < y ? 1.0 : 0.0; }, a, b); }
-  friend Pack select(Pack c, Pack a, Pack b) { return map([](double k, double x, double y) { return k != 0 ? x : y; }, c, a, b); }
-  friend Pack atan2(Pack a, Pack b) { return map([](double x, double y) { return std::atan2(x, y); }, a, b); }
-#define MOTE_UNARY(f) \
-  friend Pack f(Pack a) { return map([](double x) { return std::f(x); }, a); }
-  MOTE_UNARY(sqrt) MOTE_UNARY(exp) MOTE_UNARY(log) MOTE_UNARY(sin) MOTE_UNARY(cos) MOTE_UNARY(tan) MOTE_UNARY(atan) MOTE_UNARY(abs) MOTE_UNARY(floor)
+  friend Pack operator+(Pack a, Pack b) {
+    return map([](double x, double y) { return x + y; }, a, b);
+  }
+  friend Pack operator-(Pack a, Pack b) {
+    return map([](double x, double y) { return x - y; }, a, b);
+  }
+  friend Pack operator*(Pack a, Pack b) {
+    return map([](double x, double y) { return x * y; }, a, b);
+  }
+  friend Pack operator/(Pack a, Pack b) {
+    return map([](double x, double y) { return x / y; }, a, b);
+  }
+  friend Pack operator-(Pack a) {
+    return map([](double x) { return -x; }, a);
+  }
+  friend Pack less(Pack a, Pack b) {
+    return map([](double x, double y) { return x < y ? 1.0 : 0.0; }, a, b);
+  }
+  friend Pack select(Pack c, Pack a, Pack b) {
+    return map([](double k, double x, double y) { return k != 0 ? x : y; }, c, a, b);
+  }
+  friend Pack atan2(Pack a, Pack b) {
+    return map([](double x, double y) { return std::atan2(x, y); }, a, b);
+  }
+#define MOTE_UNARY(f)                                  \
+  friend Pack f(Pack a) {                              \
+    return map([](double x) { return std::f(x); }, a); \
+  }
+  MOTE_UNARY(sqrt)
+  MOTE_UNARY(exp)
+  MOTE_UNARY(log)
+  MOTE_UNARY(sin)
+  MOTE_UNARY(cos)
+  MOTE_UNARY(tan)
+  MOTE_UNARY(atan)
+  MOTE_UNARY(abs)
+  MOTE_UNARY(floor)
 #undef MOTE_UNARY
 };
 
@@ -136,9 +192,11 @@ Scene<M> scene(const M& model, Step t, Draw<double>& draw) {
   return {before, x, y, t};
 }
 
-/// All that a model computes at a scene – next state, log likelihood, log transition – in the number type S, as one list.
+/// All that a model computes at a scene – next state, log likelihood, log transition – in the number type S, as one
+/// list.
 template <class S, class M, class D>
-std::vector<S> everything(const M& model, Step t, const StateOf<M, S>& before, const StateOf<M, S>& x, const Row<S>& y, D& draw) {
+std::vector<S> everything(const M& model, Step t, const StateOf<M, S>& before, const StateOf<M, S>& x, const Row<S>& y,
+                          D& draw) {
   std::vector<S> all;
   for (const S& v : model.template initial<S>(draw)) all.push_back(v);
   for (const S& v : model.template next<S>(t, before, draw)) all.push_back(v);
@@ -184,7 +242,8 @@ void expect_recording_equals_direct(const M& model) {
     const auto recorded = everything<Node>(model, t, before, x, y, draw);
     const auto values = tape.evaluate(inputs);
     ASSERT_EQ(recorded.size(), direct.size());
-    for (std::size_t i = 0; i < direct.size(); ++i) EXPECT_EQ(values[static_cast<std::size_t>(recorded[i].id)], direct[i]) << "output " << i << " at t = " << t;
+    for (std::size_t i = 0; i < direct.size(); ++i)
+      EXPECT_EQ(values[static_cast<std::size_t>(recorded[i].id)], direct[i]) << "output " << i << " at t = " << t;
   }
 }
 
@@ -208,7 +267,8 @@ void expect_vector_equals_lanes(const M& model) {
   const auto before = lifted<Pack>(model, packed([&](std::size_t l) { return scenes[l].before; }));
   const auto x = lifted<Pack>(model, packed([&](std::size_t l) { return scenes[l].x; }));
   const Row<Pack> y{packed([&](std::size_t l) { return scenes[l].y.values; }), scenes[0].y.present};
-  ListedDraw<Pack> draw{packed([&](std::size_t l) { return draws[l].normals; }), packed([&](std::size_t l) { return draws[l].uniforms; })};
+  ListedDraw<Pack> draw{packed([&](std::size_t l) { return draws[l].normals; }),
+                        packed([&](std::size_t l) { return draws[l].uniforms; })};
   const auto all = everything<Pack>(model, t, before, x, y, draw);
   for (std::size_t lane = 0; lane < Pack::kLanes; ++lane) {
     const auto direct = everything<double>(model, t, scenes[lane].before, scenes[lane].x, scenes[lane].y, draws[lane]);
@@ -226,8 +286,10 @@ void expect_float_follows_double(const M& model) {
   const auto direct = everything<double>(model, 3, at.before, at.x, at.y, numbers);
   const auto shortened = [](const auto& list) { return std::vector<float>(list.begin(), list.end()); };
   ListedDraw<float> draw{shortened(numbers.normals), shortened(numbers.uniforms)};
-  const auto single = everything<float>(model, 3, lifted<float>(model, shortened(at.before)), lifted<float>(model, shortened(at.x)), at.y.template as<float>(), draw);
-  for (std::size_t i = 0; i < direct.size(); ++i) EXPECT_NEAR(static_cast<double>(single[i]), direct[i], 2e-3 * (1 + std::abs(direct[i]))) << "output " << i;
+  const auto single = everything<float>(model, 3, lifted<float>(model, shortened(at.before)),
+                                        lifted<float>(model, shortened(at.x)), at.y.template as<float>(), draw);
+  for (std::size_t i = 0; i < direct.size(); ++i)
+    EXPECT_NEAR(static_cast<double>(single[i]), direct[i], 2e-3 * (1 + std::abs(direct[i]))) << "output " << i;
 }
 
 /// The same number of draws for any state: what addressing and vectors rest on.
@@ -261,14 +323,16 @@ double z_of_mean_one(int n, F f) {
 
 /// A state near `from` whose image under the model lies about `shift` standard deviations of one step away.
 template <class M, class Image>
-StateOf<M, double> nearby(const StateOf<M, double>& from, const std::vector<double>& spread, double shift, Image image) {
+StateOf<M, double> nearby(const StateOf<M, double>& from, const std::vector<double>& spread, double shift,
+                          Image image) {
   const auto reference = image(from);
   for (double delta = shift;; delta /= 2) {
     auto other = from;
     for (std::size_t d = 0; d < other.size(); ++d) other[d] += delta * spread[d];
     const auto moved = image(other);
     bool near = true;
-    for (std::size_t d = 0; d < reference.size(); ++d) near = near && std::abs(moved[d] - reference[d]) <= shift * spread[d] + 1e-12;
+    for (std::size_t d = 0; d < reference.size(); ++d)
+      near = near && std::abs(moved[d] - reference[d]) <= shift * spread[d] + 1e-12;
     if (near) return other;
   }
 }
@@ -302,7 +366,8 @@ void expect_transition_density(const M& model) {
   const auto ratio = [&](double power) {
     return z_of_mean_one(40000, [&] {
       const auto x = model.template next<double>(t, at.before, draw);
-      return std::exp(power * (model.template log_transition<double>(t, x, other) - model.template log_transition<double>(t, x, at.before)));
+      return std::exp(power * (model.template log_transition<double>(t, x, other) -
+                               model.template log_transition<double>(t, x, at.before)));
     });
   };
   EXPECT_LT(std::abs(ratio(1.0)), 4.89);
@@ -323,13 +388,17 @@ void expect_observation_density(const M& model) {
   // shrink the displacement until the log ratio has a standard deviation of about 0.7 or less
   auto other = at.x;
   for (double delta = 1;; delta /= 2) {
-    for (std::size_t d = 0; d < other.size(); ++d) other[d] = at.x[d] + (d % 4 < 2 ? delta : -delta) * (0.01 + std::abs(at.x[d]));
+    for (std::size_t d = 0; d < other.size(); ++d)
+      other[d] = at.x[d] + (d % 4 < 2 ? delta : -delta) * (0.01 + std::abs(at.x[d]));
     double squares = 0;
-    for (int i = 0; i < 200; ++i) squares += std::pow(log_ratio(other, model.template observe<double>(4, at.x, inputs, draw)), 2) / 200;
+    for (int i = 0; i < 200; ++i)
+      squares += std::pow(log_ratio(other, model.template observe<double>(4, at.x, inputs, draw)), 2) / 200;
     if (squares < 0.6) break;
   }
   const auto ratio = [&](double power) {
-    return z_of_mean_one(40000, [&] { return std::exp(power * log_ratio(other, model.template observe<double>(4, at.x, inputs, draw))); });
+    return z_of_mean_one(40000, [&] {
+      return std::exp(power * log_ratio(other, model.template observe<double>(4, at.x, inputs, draw)));
+    });
   };
   EXPECT_LT(std::abs(ratio(1.0)), 4.89);
   EXPECT_GT(std::abs(ratio(0.7)), 4.89) << "the twin must fail";
@@ -349,12 +418,12 @@ void expect_empty_fields_are_silent(const M& model) {
 }  // namespace mote::laws
 
 /// The laws of one model; `...` is an expression that makes it.
-#define MOTE_MODEL_LAWS(Name, ...)                                                                                          \
-  static_assert(::mote::Observable<decltype(__VA_ARGS__)>);                                                                 \
-  TEST(Name##Laws, RecordingEqualsDirectBitForBit) { ::mote::laws::expect_recording_equals_direct(__VA_ARGS__); }           \
-  TEST(Name##Laws, VectorEqualsLanes) { ::mote::laws::expect_vector_equals_lanes(__VA_ARGS__); }                            \
-  TEST(Name##Laws, FloatFollowsDouble) { ::mote::laws::expect_float_follows_double(__VA_ARGS__); }                          \
-  TEST(Name##Laws, DrawsAreConstantInNumber) { ::mote::laws::expect_constant_draws(__VA_ARGS__); }                          \
-  TEST(Name##Laws, TransitionIsTheDensityOfNext) { ::mote::laws::expect_transition_density(__VA_ARGS__); }                  \
-  TEST(Name##Laws, LikelihoodIsTheDensityOfObserve) { ::mote::laws::expect_observation_density(__VA_ARGS__); }              \
+#define MOTE_MODEL_LAWS(Name, ...)                                                                                \
+  static_assert(::mote::Observable<decltype(__VA_ARGS__)>);                                                       \
+  TEST(Name##Laws, RecordingEqualsDirectBitForBit) { ::mote::laws::expect_recording_equals_direct(__VA_ARGS__); } \
+  TEST(Name##Laws, VectorEqualsLanes) { ::mote::laws::expect_vector_equals_lanes(__VA_ARGS__); }                  \
+  TEST(Name##Laws, FloatFollowsDouble) { ::mote::laws::expect_float_follows_double(__VA_ARGS__); }                \
+  TEST(Name##Laws, DrawsAreConstantInNumber) { ::mote::laws::expect_constant_draws(__VA_ARGS__); }                \
+  TEST(Name##Laws, TransitionIsTheDensityOfNext) { ::mote::laws::expect_transition_density(__VA_ARGS__); }        \
+  TEST(Name##Laws, LikelihoodIsTheDensityOfObserve) { ::mote::laws::expect_observation_density(__VA_ARGS__); }    \
   TEST(Name##Laws, EmptyFieldsAreSilent) { ::mote::laws::expect_empty_fields_are_silent(__VA_ARGS__); }

@@ -12,25 +12,30 @@ void require(bool holds, const std::string& what) {
 }
 
 void require_shape(const Matrix& A, Eigen::Index rows, Eigen::Index columns, const std::string& name) {
-  require(A.rows() == rows && A.cols() == columns,
-          name + " must be " + std::to_string(rows) + " x " + std::to_string(columns) + ", it is " + std::to_string(A.rows()) + " x " + std::to_string(A.cols()));
+  require(A.rows() == rows && A.cols() == columns, name + " must be " + std::to_string(rows) + " x " +
+                                                       std::to_string(columns) + ", it is " + std::to_string(A.rows()) +
+                                                       " x " + std::to_string(A.cols()));
   require(A.allFinite(), name + " has an entry that is not a finite number");
 }
 
 /// A root of a covariance: the Cholesky factor if it is definite, else from its eigenvalues. `definite` says which.
 Matrix root_of(const Matrix& A, const std::string& name, bool& definite) {
-  require((A - A.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * (1 + A.cwiseAbs().maxCoeff()), name + " must be symmetric");
+  require((A - A.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * (1 + A.cwiseAbs().maxCoeff()),
+          name + " must be symmetric");
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(A);
   const double largest = eigen.eigenvalues().cwiseAbs().maxCoeff();
-  require(eigen.eigenvalues().minCoeff() >= -1e-9 * largest, name + " must have no negative eigenvalue (it is a covariance)");
+  require(eigen.eigenvalues().minCoeff() >= -1e-9 * largest,
+          name + " must have no negative eigenvalue (it is a covariance)");
   definite = eigen.eigenvalues().minCoeff() > 1e-12 * largest;
   if (definite) return A.llt().matrixL();
   return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 
-std::vector<std::string> names_or(std::vector<std::string> given, const std::string& stem, Eigen::Index n, const std::string& what) {
+std::vector<std::string> names_or(std::vector<std::string> given, const std::string& stem, Eigen::Index n,
+                                  const std::string& what) {
   if (given.empty() && n == 1) return {stem};
-  for (Eigen::Index i = 1; given.size() < static_cast<std::size_t>(n) && i <= n; ++i) given.push_back(stem + std::to_string(i));
+  for (Eigen::Index i = 1; given.size() < static_cast<std::size_t>(n) && i <= n; ++i)
+    given.push_back(stem + std::to_string(i));
   require(given.size() == static_cast<std::size_t>(n), "there must be " + std::to_string(n) + " names of " + what);
   return given;
 }

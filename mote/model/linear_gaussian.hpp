@@ -20,8 +20,8 @@ struct LinearGaussianParameters {
 
 /// x_t = F x_{t-1} + w,  y_t = H x_t + v,  w ~ N(0, Q),  v ~ N(0, R),  x_0 ~ N(mean, covariance).
 ///
-/// shape   Q and covariance positive semidefinite, R positive definite; a row with missing entries uses the block of R of the others
-/// error   the constructor refuses wrong shapes, asymmetric or indefinite matrices (std::invalid_argument naming the matrix)
+/// shape   Q and covariance positive semidefinite, R positive definite; a row with gaps uses R's block of the others
+/// error   the constructor refuses wrong shapes, asymmetric or indefinite matrices: std::invalid_argument naming one
 class LinearGaussian {
  public:
   template <class S>
@@ -134,7 +134,8 @@ class LinearGaussianOptimal {
     return LinearGaussian::correlated(c.root, c.mean, draw);
   }
   template <class S>
-  S log_density(const LinearGaussian& model, Step, const SmallVector<S>& x, const SmallVector<S>& before, Rows<S> y) const {
+  S log_density(const LinearGaussian& model, Step, const SmallVector<S>& x, const SmallVector<S>& before,
+                Rows<S> y) const {
     Conditional<S> c = conditional(model, before, y);
     for (std::size_t i = 0; i < x.size(); ++i) c.mean[i] = x[i] - c.mean[i];
     return LinearGaussian::log_density(c.root, c.mean);

@@ -35,7 +35,7 @@ struct LocalLevel {
   Parameters p{};
 
   std::vector<Quantity> states() const { return {{"level", ""}}; }
-  std::vector<Column> columns() const { return {{"y", ""}}; }
+  std::vector<Column> columns() const { return {{.name = "y", .unit = "", .state = "level"}}; }
   Density density() const { return p.var_level > 0 ? Density::kState : Density::kNone; }
 
   template <class S, class D>
@@ -73,7 +73,8 @@ struct LocalLevelOptimal {
     return {c.mean + S(std::sqrt(c.variance)) * draw.normal()};
   }
   template <class S>
-  S log_density(const LocalLevel& model, Step, const std::array<S, 1>& x, const std::array<S, 1>& before, Rows<S> y) const {
+  S log_density(const LocalLevel& model, Step, const std::array<S, 1>& x, const std::array<S, 1>& before,
+                Rows<S> y) const {
     const Conditional<S> c = conditional(model.p, before[0], y);
     return normal_log_density(x[0] - c.mean, c.variance);
   }

@@ -9,13 +9,14 @@
 ///   - log_transition is the density of next(), log_likelihood that of observe();
 ///   - an empty field of a row contributes nothing.
 
-#include <boost/container/small_vector.hpp>
 #include <concepts>
 #include <functional>
 #include <span>
 #include <string>
 #include <tuple>
 #include <vector>
+
+#include <boost/container/small_vector.hpp>
 
 #include "mote/base/draws.hpp"
 #include "mote/base/numbers.hpp"
@@ -34,7 +35,8 @@ struct Column {
   std::string name;
   std::string unit;
   bool input = false;
-  double fallback = 0;  ///< the value of an input whose column is missing
+  double fallback = 0;     ///< the value of an input whose column is missing
+  std::string state = {};  ///< the state that an observation measures directly, if any: they are plotted together
 };
 
 /// One row of data: the model's observation columns in order, then its inputs. An observation may be missing.
@@ -72,7 +74,8 @@ using SmallVector = boost::container::small_vector<S, 8>;
 /// In which space log_transition is a density.
 enum class Density {
   kNone,   ///< there is none
-  kNoise,  ///< density of the noise that leads from one state to the other: ratios p/g are right, sums over parents are not
+  kNoise,  ///< density of the noise that leads from one state to the other: ratios p/g are right, sums over parents are
+           ///< not
   kState,  ///< density in the state itself
 };
 
@@ -85,7 +88,8 @@ struct Function {
 
 /// The contract of a model.
 template <class M>
-concept Model = requires(const M& m, Step t, const typename M::template State<double>& x, const Row<double>& y, Draw<double>& draw) {
+concept Model = requires(const M& m, Step t, const typename M::template State<double>& x, const Row<double>& y,
+                         Draw<double>& draw) {
   { m.states() } -> std::convertible_to<std::vector<Quantity>>;
   { m.columns() } -> std::convertible_to<std::vector<Column>>;
   { m.template initial<double>(draw) } -> std::same_as<typename M::template State<double>>;
@@ -95,7 +99,8 @@ concept Model = requires(const M& m, Step t, const typename M::template State<do
 
 /// A model that can also draw an observation: what `mote simulate` needs. `inputs` holds the row's inputs.
 template <class M>
-concept Observable = Model<M> && requires(const M& m, Step t, const typename M::template State<double>& x, const Row<double>& inputs, Draw<double>& draw) {
+concept Observable = Model<M> && requires(const M& m, Step t, const typename M::template State<double>& x,
+                                          const Row<double>& inputs, Draw<double>& draw) {
   { m.template observe<double>(t, x, inputs, draw) } -> std::same_as<Row<double>>;
 };
 
@@ -108,7 +113,8 @@ concept HasTransition = Model<M> && requires(const M& m, Step t, const typename 
 
 /// A proposal g(x | x_{t-1}, y_t) of a model, with its density in the space of the model's transition density.
 template <class G, class M>
-concept ProposalOf = requires(const G& g, const M& m, Step t, const typename M::template State<double>& x, Rows<double> y, Draw<double>& draw) {
+concept ProposalOf = requires(const G& g, const M& m, Step t, const typename M::template State<double>& x,
+                              Rows<double> y, Draw<double>& draw) {
   { g.template propose<double>(m, t, x, y, draw) } -> std::same_as<typename M::template State<double>>;
   { g.template log_density<double>(m, t, x, x, y) } -> std::same_as<double>;
 };

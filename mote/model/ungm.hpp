@@ -96,9 +96,9 @@ struct Ungm {
 /// A mixture of two normal modes, per copy: what both proposals of the growth model are.
 template <class S>
 struct TwoModes {
-  S low, high;     // means
-  S weight_high;   // probability of the high mode
-  S sd;            // of both
+  S low, high;    // means
+  S weight_high;  // probability of the high mode
+  S sd;           // of both
 
   template <class D>
   S draw_from(D& draw) const {
@@ -125,11 +125,12 @@ const S* measurement(Rows<S> rows, std::size_t c) {
 
 /// IMH-OPT (50) read literally: observation plus prediction, x ~ N(+-sqrt(20 |y|) + f(x_{t-1}), 1), both signs alike.
 ///
-/// A step without a measurement of a copy proposes that copy from N(f, 1). The modes are far from the posterior's unless the
-/// prediction is near zero; shown because the paper prints it.
+/// A step without a measurement of a copy proposes that copy from N(f, 1). The modes are far from the posterior's
+/// unless the prediction is near zero; shown because the paper prints it.
 struct UngmObservationSum {
   static constexpr std::string_view kName = "observation-sum";
-  static constexpr std::string_view kMeaning = "IMH-OPT (50) as printed: modes at prediction +- sqrt(20 |y|), variance 1";
+  static constexpr std::string_view kMeaning =
+      "IMH-OPT (50) as printed: modes at prediction +- sqrt(20 |y|), variance 1";
 
   template <class S, std::size_t C, class D>
   std::array<S, C> propose(const Ungm<C>& model, Step t, const std::array<S, C>& before, Rows<S> y, D& draw) const {
@@ -138,7 +139,8 @@ struct UngmObservationSum {
     return x;
   }
   template <class S, std::size_t C>
-  S log_density(const Ungm<C>& model, Step t, const std::array<S, C>& x, const std::array<S, C>& before, Rows<S> y) const {
+  S log_density(const Ungm<C>& model, Step t, const std::array<S, C>& x, const std::array<S, C>& before,
+                Rows<S> y) const {
     S sum = S(0);
     for (std::size_t c = 0; c < C; ++c) sum = sum + modes(model, t, before[c], measurement(y, c)).log_density(x[c]);
     return sum;
@@ -154,7 +156,8 @@ struct UngmObservationSum {
   }
 };
 
-/// What (50) means: modes near +-sqrt(20 max(y, 0)), blended with the prediction by their precisions, and a defensive prior part.
+/// What (50) means: modes near +-sqrt(20 max(y, 0)), blended with the prediction by their precisions, and a defensive
+/// prior part.
 ///
 ///   g = 1/5 N(f, q) + 4/5 [ c N(m+, v) + (1 - c) N(m-, v) ],   h = s / 10,  1/v' = 1/q + h^2 / r,  v = 2 v'
 ///   m+- = v' (f / q +- h^2 s / r),   c by the predictive densities of the modes;   s = sqrt(20 max(y, 0))
@@ -162,7 +165,8 @@ struct UngmObservationSum {
 /// the likelihood linearised at +-s; without a measurement g is the prior
 struct UngmObservation {
   static constexpr std::string_view kName = "observation";
-  static constexpr std::string_view kMeaning = "modes near +-sqrt(20 max(y,0)) blended with the prediction, one fifth from the prior";
+  static constexpr std::string_view kMeaning =
+      "modes near +-sqrt(20 max(y,0)) blended with the prediction, one fifth from the prior";
   static constexpr double kDefensive = 0.2;
 
   template <class S, std::size_t C, class D>
@@ -180,7 +184,8 @@ struct UngmObservation {
     return x;
   }
   template <class S, std::size_t C>
-  S log_density(const Ungm<C>& model, Step t, const std::array<S, C>& x, const std::array<S, C>& before, Rows<S> y) const {
+  S log_density(const Ungm<C>& model, Step t, const std::array<S, C>& x, const std::array<S, C>& before,
+                Rows<S> y) const {
     using namespace numbers;
     S sum = S(0);
     for (std::size_t c = 0; c < C; ++c) {

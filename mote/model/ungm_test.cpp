@@ -13,10 +13,12 @@ TEST(Ungm, FollowsThePrintedEquations) {
   const Ungm<1> model;
   EXPECT_DOUBLE_EQ(model.drift(1, 2.0), 0.5 * 2 + 25 * 2 / 5.0 + 8);
   EXPECT_DOUBLE_EQ(model.drift(4, 0.0), 8 * std::cos(1.2 * 3));
-  EXPECT_DOUBLE_EQ((model.log_likelihood<double>(1, {10.0}, Row<double>::of({7.0}))), -0.5 * 4 - 0.5 * std::log(2 * kPi));
+  EXPECT_DOUBLE_EQ((model.log_likelihood<double>(1, {10.0}, Row<double>::of({7.0}))),
+                   -0.5 * 4 - 0.5 * std::log(2 * kPi));
 }
 
-/// z score of E_g[ p(x | b) / g(x | b, y) ] = 1: a proposal's density is the density of its draws, and it covers the transition.
+/// z score of E_g[ p(x | b) / g(x | b, y) ] = 1: a proposal's density is the density of its draws, and it covers the
+/// transition.
 template <class G>
 double proposal_z(const G& proposal, double power, const std::vector<Row<double>>& y) {
   const Ungm<2> model;
@@ -27,7 +29,8 @@ double proposal_z(const G& proposal, double power, const std::vector<Row<double>
   const Ungm<2> narrow{{0.5, 1.2, 4, 1, 5}};
   return laws::z_of_mean_one(60000, [&] {
     const auto x = proposal.template propose<double>(model, 6, before, y, draw);
-    return std::exp(power * (narrow.log_transition<double>(6, x, before) - proposal.template log_density<double>(model, 6, x, before, y)));
+    return std::exp(power * (narrow.log_transition<double>(6, x, before) -
+                             proposal.template log_density<double>(model, 6, x, before, y)));
   });
 }
 
@@ -44,7 +47,8 @@ TEST(UngmProposals, HaveTheDensityOfTheirDraws) {
   }
 }
 
-// The printed proposal has variance 1 and does not cover the transition, so q is itself: recovered by quadrature instead.
+// The printed proposal has variance 1 and does not cover the transition, so q is itself: recovered by quadrature
+// instead.
 TEST(UngmProposals, ThePrintedOneIntegratesToOne) {
   const Ungm<1> model;
   const std::vector<Row<double>> y{Row<double>::of({3.0})};
@@ -61,9 +65,11 @@ TEST(UngmProposals, ThePrintedOneIntegratesToOne) {
   auto block = Draws{22, 0}.block(Purpose::kTest);
   auto draw = block.particle(0);
   double sum = 0;
-  for (int i = 0; i < 20000; ++i) sum += UngmObservationSum{}.propose<double>(model, 6, std::array<double, 1>{0.3}, y, draw)[0];
+  for (int i = 0; i < 20000; ++i)
+    sum += UngmObservationSum{}.propose<double>(model, 6, std::array<double, 1>{0.3}, y, draw)[0];
   EXPECT_NEAR(sum / 20000, mean, 4.89 * std::sqrt((60.0 + 1) / 20000));
-  EXPECT_GT(std::abs(sum / 20000 - mean - 1), 4.89 * std::sqrt((60.0 + 1) / 20000)) << "the twin, a mean off by one, must fail";
+  EXPECT_GT(std::abs(sum / 20000 - mean - 1), 4.89 * std::sqrt((60.0 + 1) / 20000))
+      << "the twin, a mean off by one, must fail";
 }
 
 }  // namespace

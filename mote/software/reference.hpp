@@ -16,10 +16,14 @@ namespace reference {
 template <class R, class G, Model M>
 std::unique_ptr<Filter> with_proposal(const M& model, const Plan& plan) {
   switch (plan.filter) {
-    case FilterKind::kSisr: return make_sisr<R, G>(model, plan.particles, plan.seed, plan.selection, plan.on_collapse);
-    case FilterKind::kImh: return make_imh<R, G>(model, plan.particles, plan.seed, plan.chain, plan.on_collapse);
-    case FilterKind::kAuxiliary: return make_auxiliary<R, G>(model, plan.particles, plan.seed, plan.chain, plan.on_collapse);
-    case FilterKind::kDistributed: return make_distributed<R, G>(model, plan.particles, plan.seed, plan.groups, plan.selection, plan.on_collapse);
+    case FilterKind::kSisr:
+      return make_sisr<R, G>(model, plan.particles, plan.seed, plan.selection, plan.on_collapse);
+    case FilterKind::kImh:
+      return make_imh<R, G>(model, plan.particles, plan.seed, plan.chain, plan.on_collapse);
+    case FilterKind::kAuxiliary:
+      return make_auxiliary<R, G>(model, plan.particles, plan.seed, plan.chain, plan.on_collapse);
+    case FilterKind::kDistributed:
+      return make_distributed<R, G>(model, plan.particles, plan.seed, plan.groups, plan.selection, plan.on_collapse);
   }
   return nullptr;
 }
@@ -27,9 +31,15 @@ std::unique_ptr<Filter> with_proposal(const M& model, const Plan& plan) {
 /// Refuses a proposal whose weights the model cannot give.
 inline void check_density(Density density, const Plan& plan, const std::string& where) {
   if (density == Density::kNone)
-    throw Refusal(ExitCode::kWrongUse, where + ": --proposal " + plan.proposal + ": the model has no transition density with these parameters (its state noise is zero or degenerate), so only the prior can propose. Pass --proposal prior.");
+    throw Refusal(ExitCode::kWrongUse,
+                  where + ": --proposal " + plan.proposal +
+                      ": the model has no transition density with these parameters (its state noise is zero or "
+                      "degenerate), so only the prior can propose. Pass --proposal prior.");
   if (density == Density::kNoise && plan.filter == FilterKind::kImh)
-    throw Refusal(ExitCode::kWrongUse, where + ": --proposal " + plan.proposal + ": the model's noise has fewer dimensions than its state, so the sum over parents of p(x | x^i) in the IMH weight (12) does not exist. Pass --filter auxiliary, whose weights (23) need no sum, or --proposal prior.");
+    throw Refusal(ExitCode::kWrongUse, where + ": --proposal " + plan.proposal +
+                                           ": the model's noise has fewer dimensions than its state, so the sum over "
+                                           "parents of p(x | x^i) in the IMH weight (12) does not exist. Pass --filter "
+                                           "auxiliary, whose weights (23) need no sum, or --proposal prior.");
 }
 
 template <class R, Model M>
@@ -41,7 +51,9 @@ std::unique_ptr<Filter> in_precision(const M& model, const Plan& plan, const std
     filter = with_proposal<R, G>(model, plan);
   };
   if constexpr (requires { typename M::Proposals; }) {
-    [&]<class... G>(const std::tuple<G...>*) { (offer(static_cast<const G*>(nullptr)), ...); }(static_cast<const typename M::Proposals*>(nullptr));
+    [&]<class... G>(const std::tuple<G...>*) {
+      (offer(static_cast<const G*>(nullptr)), ...);
+    }(static_cast<const typename M::Proposals*>(nullptr));
   } else {
     offer(static_cast<const Prior*>(nullptr));
   }
@@ -55,8 +67,11 @@ std::unique_ptr<Filter> in_precision(const M& model, const Plan& plan, const std
 /// error   Refusal (kWrongUse) when the model has no proposal of that name, or its weights do not exist
 template <Model M>
 std::unique_ptr<Filter> make_reference_filter(const M& model, const Plan& plan, const std::string& where) {
-  auto filter = plan.precision == Precision::kFloat ? reference::in_precision<float>(model, plan, where) : reference::in_precision<double>(model, plan, where);
-  if (!filter) throw Refusal(ExitCode::kWrongUse, {where, "--proposal", "one of the model's proposals (see mote models NAME)", plan.proposal, "Pass --proposal prior."});
+  auto filter = plan.precision == Precision::kFloat ? reference::in_precision<float>(model, plan, where)
+                                                    : reference::in_precision<double>(model, plan, where);
+  if (!filter)
+    throw Refusal(ExitCode::kWrongUse, {where, "--proposal", "one of the model's proposals (see mote models NAME)",
+                                        plan.proposal, "Pass --proposal prior."});
   return filter;
 }
 

@@ -15,7 +15,7 @@ namespace {
 /// Means of x over five steps.
 std::vector<double> means(const Plan& plan) {
   Recording recording;
-  for (Step t = 1; t <= 5; ++t) recording.steps.push_back({t, {Row<double>::of({1.0 + t})}, {}});
+  for (Step t = 1; t <= 5; ++t) recording.steps.push_back({t, {Row<double>::of({1.0 + t})}});
   const Ungm<1> model;
   const auto filter = make_reference_filter(model, plan, "mote run");
   RunRequest request;

@@ -49,7 +49,7 @@ TEST(Evidence, OfAPlaneWithMissingEntriesIsUnbiased) {
 TEST(Evidence, CarriedWeightsSurviveAnUnobservedStep) {
   const LocalLevel precise{{0.2, 0.5, 0, 1}};
   Recording recording;
-  recording.steps = {{1, {Row<double>::of({2.5})}, {}}, {2, {}, {}}, {3, {Row<double>::of({3.0})}, {}}};
+  recording.steps = {{1, {Row<double>::of({2.5})}}, {2, {}}, {3, {Row<double>::of({3.0})}}};
   const double exact = referee::log_evidence(referee::kalman(precise, recording));
   const SelectionOptions options{.scheme = find_scheme("multinomial"), .exponent = 0.3};
   const Maker maker{"", [&](std::size_t n, std::uint64_t seed) { return make_sisr(precise, n, seed, options); }};
@@ -58,9 +58,11 @@ TEST(Evidence, CarriedWeightsSurviveAnUnobservedStep) {
   EXPECT_LT(std::abs(ratios.z(1)), kOneInAMillion);
 }
 
-// claim    PPF's restart of the group weights and copies that replace the lightest bias the evidence, less with larger groups
+// claim    PPF's restart of the group weights and copies that replace the lightest bias the evidence, less with
+//          larger groups
 // referee  the Kalman filter
-// design   8 groups of 8 particles (4000 runs) and of 80 (1000 runs), 2 exchanged: the twins of carried weights, swap and append
+// design   8 groups of 8 particles (4000 runs) and of 80 (1000 runs), 2 exchanged: the twins of carried weights, swap
+//          and append
 // risk     1e-6 that an unbiased filter would pass (|z| > 4.89)
 TEST(Evidence, OfGroupsThatForgetWeightIsBiased) {
   const auto recording = local_level_recording();

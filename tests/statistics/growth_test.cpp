@@ -5,12 +5,14 @@
 namespace mote::statistics {
 namespace {
 
-// claim    the bootstrap filter's error to the exact mean, and what IMH pays for having no resampling, are the project's goals
+// claim    the bootstrap filter's error to the exact mean, and what IMH pays for having no resampling, are the
+//          project's goals
 // referee  the point-mass filter
-// design   120 recordings of 100 steps, N = 1000, the same recordings and numbers of likelihoods for all (nightly: 2000)
-// risk     RMSE: standard deviation 0.55 a recording, so 0.05 of the mean; 0.487 + 4.89 * 0.05 = 0.73. Ratios: the log has a
-//          standard error of 0.08, expected are 1.45 and 1.32, bounds are the goals (1.75 and 1.45) times exp(0.3): 6 and 5
-//          standard errors. The twin (a state noise of variance 6 for 10) must be caught
+// design   120 recordings of 100 steps, N = 1000, the same recordings and numbers of likelihoods for all (nightly:
+//          2000)
+// risk     RMSE: standard deviation 0.55 a recording, so 0.05 of the mean; 0.487 + 4.89 * 0.05 = 0.73. Ratios: the
+//          log has a standard error of 0.08, expected are 1.45 and 1.32, bounds are the goals (1.75 and 1.45) times
+//          exp(0.3): 6 and 5 standard errors. The twin (a state noise of variance 6 for 10) must be caught
 TEST(Growth, ErrorsToTheExactMeanAreTheGoals) {
   auto makers = growth_filters();
   const Ungm<1> wrong{{0.5, 1.2, 6, 1, 5}};

@@ -90,7 +90,7 @@ TEST(Kalman, FollowsTheScalarRecursion) {
   Recording recording;
   const std::vector<double> flow{1120, 1160, 963};
   for (std::size_t k = 0; k < flow.size(); ++k)
-    recording.steps.push_back({static_cast<Step>(k + 1), {Row<double>::of({flow[k]})}, {}});
+    recording.steps.push_back({static_cast<Step>(k + 1), {Row<double>::of({flow[k]})}});
   const auto laws = referee::kalman(nile, recording);
   double a = 1120;
   double P = 1e5;

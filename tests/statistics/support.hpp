@@ -39,7 +39,7 @@ Simulated<M> simulate(const M& model, Step steps, std::uint64_t seed, Edit&& edi
     std::vector<Row<double>> rows{model.template observe<double>(t, x, blank_row(model), draw)};
     edit(t, rows);
     all.truth.push_back(x);
-    all.recording.steps.push_back({t, std::move(rows), {}});
+    all.recording.steps.push_back({t, std::move(rows)});
   }
   return all;
 }

@@ -12,7 +12,8 @@ struct AliasTable {
   std::vector<std::uint32_t> other;
 };
 
-/// Vose 1991: pair each cell below the mean with one above it. O(N). Work lists share one array, low cells from the left, high from the right.
+/// Vose 1991: pair each cell below the mean with one above it. O(N). Work lists share one array, low cells from the
+/// left, high from the right.
 AliasTable build(std::span<const double> weights) {
   const std::size_t n = weights.size();
   const double scale = static_cast<double>(n) / ordered_sum(n, [&](std::size_t i) { return weights[i]; });

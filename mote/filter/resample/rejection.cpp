@@ -16,7 +16,8 @@ void rejection(std::span<const double> weights, const Draws& draws, std::span<st
   const std::size_t n = weights.size();
   const double largest = *std::max_element(weights.begin(), weights.end());
   const WeightScan scan(weights);
-  const std::size_t whole_passes = ancestors.size() / n * n;  // children that may start at their own place without favouring any
+  const std::size_t whole_passes =
+      ancestors.size() / n * n;  // children that may start at their own place without favouring any
   draws.for_each(Purpose::kSelect, 0, ancestors.size(), [&](std::size_t j, auto& draw) {
     std::size_t candidate = j < whole_passes ? j % n : draw.index(n);
     int tries = 0;

@@ -1,8 +1,9 @@
 #pragma once
 /// Resampling schemes: which particles survive, and how often.
 ///
-/// Every scheme draws N_out ancestors from N weights with mean offspring N_out w_i / sum w (Metropolis: to a stated bias), never
-/// one of weight zero. They differ in variance, order and whether they need the sum of the weights. See docs/resampling.md.
+/// Every scheme draws N_out ancestors from N weights with mean offspring N_out w_i / sum w (Metropolis: to a stated
+/// bias), never one of weight zero. They differ in variance, order and whether they need the sum of the weights. See
+/// docs/resampling.md.
 
 #include <cstdint>
 #include <span>
@@ -15,7 +16,8 @@ namespace mote {
 /// Draws ancestors[j], j < N_out, from the weights.
 ///
 /// shape   weights: (N,), finite, >= 0, not all zero, need not sum to one; ancestors: (N_out,), N_out >= 1
-using ResampleFunction = void (*)(std::span<const double> weights, const Draws& draws, std::span<std::uint32_t> ancestors);
+using ResampleFunction = void (*)(std::span<const double> weights, const Draws& draws,
+                                  std::span<std::uint32_t> ancestors);
 
 /// One scheme of the catalogue.
 struct Scheme {

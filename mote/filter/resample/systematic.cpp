@@ -10,7 +10,8 @@ void systematic(std::span<const double> weights, const Draws& draws, std::span<s
   auto block = draws.block(Purpose::kSelect);
   const double u = block.particle(0).uniform();
   WeightScan::Walk walk(scan);
-  for (std::size_t j = 0; j < ancestors.size(); ++j) ancestors[j] = static_cast<std::uint32_t>(walk.find((static_cast<double>(j) + u) * step));
+  for (std::size_t j = 0; j < ancestors.size(); ++j)
+    ancestors[j] = static_cast<std::uint32_t>(walk.find((static_cast<double>(j) + u) * step));
 }
 
 }  // namespace mote

@@ -1,0 +1,89 @@
+#include "mote/app/commands/job.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "mote/app/commands/memory.hpp"
+#include "mote/app/files/recording_file.hpp"
+#include "mote/app/files/text.hpp"
+#include "mote/base/refusal.hpp"
+#include "mote/report/run_page.hpp"
+
+namespace mote {
+namespace {
+
+void check_memory(const Plan& plan, std::size_t dimensions, const std::string& where) {
+  const double need = bytes_needed(plan, dimensions);
+  const double have = available_memory();
+  if (need <= have) return;
+  throw Refusal(
+      ExitCode::kWrongUse,
+      {where, "--particles", fmt::format("particles that fit into the {:.1f} GB of memory there are", have / 1e9),
+       fmt::format("{}, which need {:.1f} GB", plan.particles, need / 1e9), "Pass fewer --particles."});
+}
+
+std::string note_of_unused(const Table& table, const std::vector<std::string>& read) {
+  const auto unused = unused_columns(table, read);
+  return unused.empty() ? ""
+                        : fmt::format("{}: note: nothing reads the column{} {}.", table.path,
+                                      unused.size() > 1 ? "s" : "", quoted(fmt::format("{}", fmt::join(unused, ","))));
+}
+
+}  // namespace
+
+Job load_job(const std::string& model, const std::string& data_path, const std::string& truth_path,
+             const std::vector<std::string>& settings, const std::string& where) {
+  Job job;
+  job.model_name = model;
+  job.data_path = data_path;
+  const CatalogueEntry& entry = find_model(model, where);
+  const Settings given(where, settings);
+  const Table table = read_table(data_path);
+  job.model = entry.make(given, table.header);
+  std::vector<std::string> names;
+  for (const Column& column : job.model->columns()) names.push_back(column.name);
+  job.recording = recording_from(table, job.model->columns(), model);
+  if (auto note = note_of_unused(table, names); !note.empty()) job.notes.push_back(std::move(note));
+  if (truth_path.empty()) return job;
+  const Table truth = read_table(truth_path);
+  names.clear();
+  for (const Quantity& state : job.model->states()) names.push_back(state.name);
+  job.truth = truth_from(truth, job.model->states());
+  if (std::none_of(job.recording.steps.begin(), job.recording.steps.end(),
+                   [&](const ObservedStep& step) { return job.truth->states.contains(step.t); }))
+    job.notes.push_back(truth_path + ": note: no time t of the truth is in the data, so nothing is scored.");
+  if (auto note = note_of_unused(truth, names); !note.empty()) job.notes.push_back(std::move(note));
+  return job;
+}
+
+RunRequest request_for(const Job& job, const std::vector<std::string>& estimates, const std::string& where) {
+  RunRequest request;
+  request.states = job.model->states();
+  request.sources = job.model->sources();
+  for (std::string text : estimates) {
+    std::erase(text, ' ');
+    for (const Estimand& other : request.estimands)
+      if (other.label == text)
+        throw Refusal(ExitCode::kWrongUse,
+                      {where, "--estimate", "every function once", text + " twice", "Pass it once."});
+    request.estimands.push_back(parse_estimand(text, request.sources, where));
+  }
+  return request;
+}
+
+RunRecord run_job(const Job& job, const Plan& plan, const RunRequest& request, const std::string& where) {
+  check_memory(plan, request.states.size(), where);
+  const auto filter = job.model->reference_filter(plan, where);
+  RunRecord record = run(*filter, plan, job.recording, request);
+  record.model = job.model_name;
+  record.engine = "reference";
+  return record;
+}
+
+std::string report_for(const Job& job, const RunRecord& record, const Summary& summary) {
+  return report::html(
+      report::run_page(record, summary, job.recording, job.truth ? &*job.truth : nullptr, job.data_path, job.command));
+}
+
+}  // namespace mote

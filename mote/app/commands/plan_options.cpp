@@ -1,0 +1,162 @@
+#include "mote/app/commands/plan_options.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "mote/filter/particles.hpp"
+
+namespace mote {
+namespace {
+
+const std::vector<std::string> kFilters{"sisr", "imh", "auxiliary", "distributed"};
+const std::vector<std::string> kFiltersLater{"sqmc", "ekf", "ukf"};
+const std::vector<std::string> kEngines{"reference"};
+const std::vector<std::string> kEnginesLater{"simd", "pipeline", "mpi"};
+constexpr long long kMost = static_cast<long long>(kMostParticles);
+
+std::vector<std::string> scheme_names() {
+  std::vector<std::string> names;
+  for (const Scheme& scheme : schemes()) names.emplace_back(scheme.name);
+  return names;
+}
+
+void refuse_what_is_not_there(const Arguments& arguments) {
+  for (const std::string name : {"--checkpoint", "--checkpoint-every", "--budget", "--proposers", "--weighers"})
+    if (arguments.given(name))
+      throw Refusal(ExitCode::kWrongUse, fmt::format("{}: {}: this version of mote does not have it yet. Leave it out.",
+                                                     arguments.where(), name));
+  const std::string engine = arguments.text("--engine");
+  if (std::find(kEnginesLater.begin(), kEnginesLater.end(), engine) != kEnginesLater.end())
+    throw Refusal(
+        ExitCode::kWrongUse,
+        fmt::format("{}: --engine {}: this version of mote does not have that engine yet. Pass --engine reference.",
+                    arguments.where(), engine));
+  arguments.choice("--engine", kEngines);
+  const std::string filter = arguments.text("--filter");
+  if (std::find(kFiltersLater.begin(), kFiltersLater.end(), filter) != kFiltersLater.end())
+    throw Refusal(ExitCode::kWrongUse, fmt::format("{}: --filter {}: this version of mote does not have that filter "
+                                                   "yet. Pass --filter {}.",
+                                                   arguments.where(), filter, fmt::join(kFilters, ", ")));
+}
+
+ChainOptions chain_from(const Arguments& arguments, FilterKind filter) {
+  ChainOptions chain;
+  chain.draws = arguments.given("--draws") ? static_cast<std::size_t>(arguments.integer("--draws", 1, kMost)) : 0;
+  chain.chains = static_cast<std::size_t>(arguments.integer("--chains", 1, kMost));
+  chain.parents = static_cast<Parents>(arguments.choice("--parents", {"iid", "permuted", "sweep"}));
+  chain.start = static_cast<ChainStart>(arguments.choice("--chain-start", {"first", "weighted"}));
+  chain.parent_weights = static_cast<ParentWeights>(arguments.choice("--parent-weights", {"uniform", "lookahead"}));
+  if (arguments.text("--burn-in") == "auto") {
+    chain.burn_in.reset();
+  } else {
+    chain.burn_in = static_cast<std::size_t>(arguments.integer("--burn-in", 0, kMost, "auto, or "));
+  }
+  if (arguments.given("--improved")) {
+    if (filter != FilterKind::kImh && filter != FilterKind::kAuxiliary)
+      throw Refusal(ExitCode::kWrongUse,
+                    {arguments.where(), "--improved", "--filter imh or auxiliary, whose chains it improves",
+                     "--filter " + std::string(name_of(filter)), "Pass --filter imh --improved."});
+    if (!arguments.given("--chains")) chain.chains = 8;
+    if (!arguments.given("--parents")) chain.parents = Parents::kPermuted;
+    if (!arguments.given("--chain-start")) chain.start = ChainStart::kWeighted;
+  }
+  if (chain.parent_weights == ParentWeights::kLookahead && filter != FilterKind::kAuxiliary)
+    throw Refusal(ExitCode::kWrongUse,
+                  {arguments.where(), "--parent-weights lookahead", "--filter auxiliary, which weighs by pairs",
+                   "--filter " + std::string(name_of(filter)), "Pass --filter auxiliary."});
+  return chain;
+}
+
+}  // namespace
+
+std::vector<OptionSpec> plan_options() {
+  const std::string filter = "Filter";
+  const std::string chain = "Chains (imh, auxiliary)";
+  const std::string groups = "Groups (distributed)";
+  const std::string engine = "Engine";
+  return {
+      {"--filter", "NAME", "sisr", "sisr, imh, auxiliary or distributed", filter},
+      {"-n,--particles", "N", "1000", "particles, from 1 to 268435456", filter},
+      {"--seed", "S", "1", "seed, an integer of at least 0; same seed, same result", filter},
+      {"--resampler", "NAME", "systematic", fmt::format("{}", fmt::join(scheme_names(), ", ")), filter},
+      {"--ess-threshold", "X", "1", "resample when ESS <= X N, X from 0 to 1; 1 = every step", filter},
+      {"--selection-exponent", "A", "1", "resample by weights to the power A, 0 < A <= 1; survivors keep w / a",
+       filter},
+      {"--proposal", "NAME", "prior", "proposal density of the model (see mote models NAME)", filter},
+      {"--on-collapse", "WHAT", "stop", "when all weights are zero: stop, keep the particles, or reset to the prior",
+       filter},
+      {"--draws", "Q", "", "proposals that chains may keep, at least N [N]", chain},
+      {"--burn-in", "NB", "0", "proposals before a chain is kept, per chain; auto = from mean and largest weight",
+       chain},
+      {"--chains", "P", "1", "chains, from 1 to N", chain},
+      {"--parents", "HOW", "iid", "how parents are chosen: iid, permuted or sweep", chain},
+      {"--chain-start", "HOW", "first", "first proposal, or weighted = drawn in proportion to weight", chain},
+      {"--parent-weights", "HOW", "uniform",
+       "auxiliary: g(k) uniform, or lookahead = half by the likelihood of the moved parent", chain},
+      {"--improved", "", "", "short for --chains 8 --parents permuted --chain-start weighted", chain},
+      {"--groups", "K", "1", "groups of particles, from 1 to N", groups},
+      {"--group-resampling", "WHERE", "local", "local = inside each group, global = over all particles", groups},
+      {"--exchange", "HOW", "none", "none, append, replace or swap the heaviest particles with the next group", groups},
+      {"--exchange-count", "M", "1", "particles that each group sends", groups},
+      {"--group-weights", "HOW", "carried",
+       "carried = properly weighted; reset = every group counts alike after resampling (PPF)", groups},
+      {"--engine", "NAME", "reference", "reference", engine},
+      {"--threads", "K", "", "threads; results never depend on it; the reference engine uses one [all cores]", engine},
+      {"--precision", "TYPE", "double", "float or double", engine},
+      {"--proposers", "R", "", "pipeline engine: not in this version", engine},
+      {"--weighers", "R", "", "pipeline engine: not in this version", engine},
+      {"--checkpoint", "FILE", "", "not in this version", engine},
+      {"--checkpoint-every", "S", "", "not in this version", engine},
+      {"--budget", "TIME", "", "not in this version", engine},
+  };
+}
+
+Plan plan_from(const Arguments& arguments) {
+  refuse_what_is_not_there(arguments);
+  Plan plan;
+  plan.filter = static_cast<FilterKind>(arguments.choice("--filter", kFilters));
+  plan.particles = static_cast<std::size_t>(arguments.integer("--particles", 1, kMost));
+  plan.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 0, 9223372036854775807LL));
+  plan.precision = static_cast<Precision>(arguments.choice("--precision", {"float", "double"}));
+  plan.proposal = arguments.text("--proposal");
+  plan.on_collapse = static_cast<OnCollapse>(arguments.choice("--on-collapse", {"stop", "keep", "reset"}));
+  plan.selection.scheme = &schemes()[arguments.choice("--resampler", scheme_names())];
+  plan.selection.ess_threshold = arguments.number("--ess-threshold", 0, 1);
+  plan.selection.exponent = arguments.number("--selection-exponent", 1e-6, 1);
+  plan.chain = chain_from(arguments, plan.filter);
+  plan.groups.groups = static_cast<std::size_t>(arguments.integer("--groups", 1, kMost));
+  plan.groups.global = arguments.choice("--group-resampling", {"local", "global"}) == 1;
+  plan.groups.exchange = static_cast<Exchange>(arguments.choice("--exchange", {"none", "append", "replace", "swap"}));
+  plan.groups.exchange_count = static_cast<std::size_t>(arguments.integer("--exchange-count", 1, kMost));
+  plan.groups.carry_group_weights = arguments.choice("--group-weights", {"carried", "reset"}) == 0;
+  if (arguments.given("--threads")) arguments.integer("--threads", 1, 4096);
+  check(plan, arguments.where());
+  return plan;
+}
+
+std::vector<std::string> notes_on_unread(const Arguments& arguments, const Plan& plan) {
+  const bool chains = plan.filter == FilterKind::kImh || plan.filter == FilterKind::kAuxiliary;
+  const bool groups = plan.filter == FilterKind::kDistributed;
+  std::vector<std::string> notes;
+  const auto note = [&](bool unread, const std::vector<std::string>& options, const std::string& reason) {
+    for (const std::string& option : options)
+      if (unread && arguments.given(option))
+        notes.push_back(fmt::format("{}: note: {} is not read: {}.", arguments.where(), option, reason));
+  };
+  const std::string filter = fmt::format("--filter {}", name_of(plan.filter));
+  note(!chains, {"--draws", "--burn-in", "--chains", "--parents", "--chain-start", "--parent-weights"},
+       filter + " has no chains");
+  note(chains, {"--resampler", "--ess-threshold", "--selection-exponent"}, filter + " does not resample");
+  note(!groups, {"--groups", "--group-resampling", "--exchange", "--exchange-count", "--group-weights"},
+       filter + " has no groups");
+  note(groups && plan.groups.global, {"--exchange", "--exchange-count", "--group-weights"},
+       "--group-resampling global knows no groups");
+  note(groups && !plan.groups.global && plan.groups.exchange == Exchange::kNone, {"--exchange-count"},
+       "--exchange none exchanges nothing");
+  note(plan.chain.parent_weights == ParentWeights::kLookahead, {"--parents"},
+       "--parent-weights lookahead draws them by weight");
+  return notes;
+}
+
+}  // namespace mote

@@ -1,0 +1,65 @@
+#pragma once
+/// Output files that appear whole or not at all.
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mote {
+
+/// One output: a file is written without a name in its folder (under a name of its own, *.part, where the file system
+/// cannot do that) and gets its name by commit(); dropped before, even by SIGKILL, it leaves nothing. Something that is
+/// no regular file (a pipe, a device) and the streams of the program ("-" is standard output) are written in place.
+///
+/// error   Refusal (kCannotWrite) naming the path, on opening, writing (disk full) or naming;
+///         Refusal (kInterrupted) when a signal ends a wait for a reader
+class Output {
+ public:
+  explicit Output(std::string path);
+  ~Output();
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+  Output(Output&&) = delete;
+  Output& operator=(Output&&) = delete;
+
+  void write(std::string_view text);
+  /// Hands everything to the system: after this only commit() is left that can fail.
+  void finish();
+  void commit();
+  bool is_standard_output() const { return stream_ == 1; }
+
+ private:
+  void open_in_place();
+  void open_aside();
+  [[noreturn]] void fail(int error) const;
+
+  std::string path_, target_, aside_;
+  int stream_;             // 1 for standard output and so on; -1 for what the file system knows by name
+  bool nameless_ = false;  // a file that commit() has still to name
+  std::FILE* file_ = nullptr;
+};
+
+/// The outputs of one command: opened before the work starts, committed together after it.
+class OutputSet {
+ public:
+  /// Keeps an input from being written over; nothing for an empty path.
+  void protect(const std::string& path);
+  /// Opens an output, or does nothing for an empty path and returns nullptr.
+  ///
+  /// error   Refusal (kWrongUse) when two outputs go to the same file, or one goes over an input
+  Output* open(const std::string& path);
+  void commit();
+  /// Whether one of them goes to standard output, so that nothing else should.
+  bool on_standard_output() const;
+
+ private:
+  std::vector<std::string> inputs_, paths_;
+  std::vector<std::unique_ptr<Output>> outputs_;
+};
+
+/// A number as text that reads back to the same bits; "nan" and "inf" as such.
+std::string exact(double value);
+
+}  // namespace mote

@@ -1,0 +1,3 @@
+#include "mote/app/commands/command.hpp"
+
+int main(int count, char** words) { return mote::run_program(count, words); }

@@ -1,0 +1,19 @@
+#pragma once
+// The report of one run.
+
+#include <string>
+
+#include "mote/engine/run_record.hpp"
+#include "mote/report/page.hpp"
+
+namespace mote::report {
+
+/// A run as a page: every state with its 2-sd band, truth and direct observations; the track in the plane for models
+/// with states x and y; other observations; ESS, acceptance, evidence and functions over time; the figures; the
+/// command.
+///
+/// `truth` may be nullptr; `source` names the data; `command` makes the run again.
+Page run_page(const RunRecord& record, const Summary& summary, const Recording& recording, const Truth* truth,
+              const std::string& source, const std::string& command);
+
+}  // namespace mote::report

@@ -1,0 +1,75 @@
+#pragma once
+/// Runs the built program as a user does: a child process in a folder of its own.
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace mote::testing {
+
+/// What a run of the program left.
+struct Ended {
+  int code = -1;
+  std::string out, err;
+};
+
+inline std::string slurp(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// A scratch folder that goes with the test.
+class Scratch {
+ public:
+  Scratch() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "mote-test-XXXXXX").string();
+    path_ = mkdtemp(pattern.data());
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  Scratch(Scratch&&) = delete;
+  Scratch& operator=(Scratch&&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+  }
+  std::string read(const std::string& name) const { return slurp(path_ / name); }
+
+  /// Runs a shell line in the folder; `mote` is the program under test.
+  Ended shell(const std::string& line) const {
+    const std::string whole = "cd '" + path_.string() + "' && mote() { '" MOTE_PROGRAM "' \"$@\"; } && ( " + line +
+                              " ) >.out 2>.err </dev/null";
+    const int status = std::system(whole.c_str());
+    Ended ended{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read(".out"), read(".err")};
+    std::filesystem::remove(path_ / ".out");
+    std::filesystem::remove(path_ / ".err");
+    return ended;
+  }
+
+  /// Names of the files in the folder, sorted.
+  std::map<std::string, std::string> files() const {
+    std::map<std::string, std::string> all;
+    for (const auto& entry : std::filesystem::directory_iterator(path_))
+      if (entry.is_regular_file()) all[entry.path().filename().string()] = slurp(entry.path());
+    return all;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace mote::testing

@@ -1,0 +1,292 @@
+// Bad input and wrong use: exit code, one sentence, nothing lost and nothing left.
+
+#include <algorithm>
+#include <regex>
+
+#include <gtest/gtest.h>
+
+#include "tests/app/program.hpp"
+
+namespace mote::testing {
+namespace {
+
+struct Case {
+  std::string name;
+  std::string data;  // written to d.csv
+  std::string line;  // the shell line
+  int code;
+  std::string sentence;    // a regular expression that the one line on standard error holds
+  std::string other = {};  // written to other.toml
+};
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+const std::string kGood = "t,y\n1,1100\n2,1000\n";
+const std::string kRun = "mote run local-level --data d.csv --out e.csv --summary s.json -n 50 ";
+const std::string kMatrices =
+    "F=[[1,0],[0,1]]\nQ=[[1,0],[0,1]]\nH=[[1,0]]\nR=[[1]]\nmean=[0,0]\ncovariance=[[1,0],[0,1]]\n";
+
+class Refused : public ::testing::TestWithParam<Case> {};
+
+TEST_P(Refused, InOneSentence) {
+  const Case& c = GetParam();
+  const Scratch scratch;
+  if (!c.data.empty()) scratch.write("d.csv", c.data);
+  if (!c.other.empty()) scratch.write("other.toml", c.other);
+  scratch.write("kept.csv", "precious");
+  const auto before = scratch.files();
+  const Ended ended = scratch.shell(c.line);
+  EXPECT_EQ(ended.code, c.code) << ended.err;
+  EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+  EXPECT_TRUE(std::regex_search(ended.err, std::regex(c.sentence))) << ended.err;
+  EXPECT_EQ(scratch.files(), before) << "a refusal leaves no file and changes none";
+}
+
+const std::vector<Case> kData{
+    {"MissingFile", "", kRun, 3, R"(^d\.csv: expected a file that can be read, got no such file)"},
+    {"EmptyFile", "\n", kRun, 3, "an empty file"},
+    {"HeaderOnly", "t,y\n", kRun, 3, "rows of data after the header, got none"},
+    {"NoHeader", "1,1100\n2,1000\n", kRun, 3, R"(d\.csv:1: first column: expected "t", got "1")"},
+    {"FirstColumnNotTime", "y,t\n1,1\n", kRun, 3, R"(first column: expected "t", got "y")"},
+    {"WrongColumn", "t,z\n1,1100\n", kRun, 3, R"(d\.csv:1: header: expected a column "y" for local-level)"},
+    {"TextInNumber", "t,y\n1,1100\n2,n/a\n", kRun, 3,
+     R"(d\.csv:3: column "y": expected a finite number or an empty field, got "n/a")"},
+    {"HalfANumber", "t,y\n1,11x\n", kRun, 3, R"(d\.csv:2: column "y".*got "11x")"},
+    {"Infinity", "t,y\n1,inf\n", kRun, 3, R"(column "y".*finite number.*got "inf")"},
+    {"TooLargeANumber", "t,y\n1,1e999\n", kRun, 3, R"(column "y".*got "1e999")"},
+    {"TimeDecreases", "t,y\n2,1\n1,1\n", kRun, 3, R"(d\.csv:3: column "t": expected at least 2)"},
+    {"TimeZero", "t,y\n0,1\n", kRun, 3, R"(column "t": expected an integer from 1)"},
+    {"TimeNegative", "t,y\n-1,1\n", kRun, 3, R"(column "t".*got "-1")"},
+    {"TimeFraction", "t,y\n1.5,1\n", kRun, 3, R"(column "t".*got "1.5")"},
+    {"TimeEmpty", "t,y\n,1\n", kRun, 3, R"(column "t")"},
+    {"TimeTooLarge", "t,y\n99999999999,1\n", kRun, 3, R"(column "t": expected an integer from 1 to 2147483646)"},
+    {"HugeGap", "t,y\n1,1\n2000000000,1\n", kRun, 3, "a gap of at most 10000000 steps"},
+    {"TruncatedLine", "t,y\n1,1100\n2", kRun, 3, R"(d\.csv:3: expected 2 fields as in the header, got 1)"},
+    {"TooManyFields", "t,y\n1,1,1\n", kRun, 3, "expected 2 fields as in the header, got 3"},
+    {"ColumnTwice", "t,y,y\n1,1,1\n", kRun, 3, R"(every column once, got "y" twice)"},
+    {"FrameWithAHole", "t,doa1,doa3\n1,0.1,0.1\n", "mote run doa --data d.csv --out e.csv", 3,
+     R"(a column "doa2" for doa)"},
+    {"FrameTooShort", "t,doa1,doa2\n1,0.1,0.1\n2,0.1\n", "mote run doa --data d.csv", 3,
+     R"(d\.csv:3: expected 3 fields)"},
+    {"InputMissing", "t,bearing,sensor_x\n1,0.1,\n", "mote run bearings --data d.csv", 3,
+     R"(column "sensor_x": expected a finite number, since the row is observed)"},
+    {"Garbage", std::string("\x01\x02\xff\xfe\n\x03\n", 6), kRun, 3, R"(d\.csv:1: first column: expected "t")"},
+    {"ZeroBytes", std::string("t,y\n1,1\0\0\n", 10), kRun, 3, R"(d\.csv:2: expected text, got a byte 0)"},
+    {"DataIsAFolder", kGood, "mkdir f; mote run local-level --data f; code=$?; rmdir f; exit $code", 3,
+     "f: expected a file that can be read, got a folder"},
+    {"TruthMissing", kGood, kRun + "--truth no.csv", 3, R"(no\.csv: expected a file)"},
+    {"TruthWithoutStates", kGood, kRun + "--truth d.csv", 3, R"(at least one state of the model \(level\))"},
+    {"Collapse", "t,y\n1,1e300\n", kRun, 4, "collapsed.*--on-collapse keep"},
+};
+
+const std::vector<Case> kUse{
+    {"NoData", "", "mote run local-level", 2, "--data: expected a CSV file with the recording, got nothing"},
+    {"ZeroParticles", kGood, kRun + "-n 0", 2, "--particles: expected an integer from 1 to 268435456, got 0"},
+    {"UnknownModel", kGood, "mote run nope --data d.csv", 2, R"(MODEL: expected one of ungm, .*got "nope")"},
+    {"UnknownOption", kGood, kRun + "--frobnicate 3", 2, "frobnicate"},
+    {"UnknownCommand", "", "mote frobnicate", 2, "frobnicate"},
+    {"MissingValue", "", "mote run local-level --data", 2, "--data"},
+    {"UnknownFilter", kGood, kRun + "--filter magic", 2, R"(--filter: expected one of sisr, imh, .*got "magic")"},
+    {"UnknownResampler", kGood, kRun + "--resampler magic", 2, "--resampler: expected one of systematic"},
+    {"UnknownEngine", kGood, kRun + "--engine warp", 2, "--engine: expected one of"},
+    {"UnknownParameter", kGood, kRun + "--set nope=3", 2,
+     R"(--set: expected a parameter of local-level \(var_level, .*got "nope")"},
+    {"UnknownProposal", kGood, kRun + "--proposal nope", 2, "--proposal"},
+    {"UnknownEstimate", kGood, kRun + "--estimate 'q2(level)'", 2, "--estimate: expected mean"},
+    {"EstimateOfNothing", kGood, kRun + "--estimate 'mean(nope)'", 2, "f one of level"},
+    {"SetWithoutSign", kGood, kRun + "--set q", 2, "--set: expected name=value"},
+    {"SetTwice", kGood, kRun + "--set p0=3 --set p0=4", 2, "expected one value, got two"},
+    {"SetNoNumber", kGood, kRun + "--set p0=abc", 2, "--set p0: expected a number of at least 0"},
+    {"NegativeVariance", kGood, kRun + "--set var_obs=-1", 2, "--set var_obs: expected a number above 0, got \"-1\""},
+    {"ZeroObservationVariance", kGood, kRun + "--set var_obs=0", 2, "expected a number above 0"},
+    {"NanParameter", kGood, kRun + "--set p0=nan", 2, "--set p0"},
+    {"ThreeCopies", kGood, "mote run ungm --data d.csv --set copies=3", 2, "copies: expected an integer from 1 to 2"},
+    {"SeedNegative", kGood, kRun + "--seed -1", 2, "--seed: expected an integer from 0"},
+    {"ThresholdTooLarge", kGood, kRun + "--ess-threshold 1.5", 2,
+     "--ess-threshold: expected a number from 0 to 1, got 1.5"},
+    {"ThresholdNan", kGood, kRun + "--ess-threshold nan", 2, "--ess-threshold"},
+    {"BurnInNegative", kGood, kRun + "--filter imh --burn-in -1", 2, "--burn-in"},
+    {"DrawsBelowParticles", kGood, kRun + "--filter imh --draws 10", 2,
+     "--draws: expected an integer from the number of particles"},
+    {"MoreChainsThanParticles", kGood, kRun + "--filter imh --chains 51", 2, "--chains: expected an integer from 1"},
+    {"MoreGroupsThanParticles", kGood, kRun + "--filter distributed --groups 51", 2, "--groups: expected"},
+    {"ExchangeTooMany", kGood, kRun + "--filter distributed --groups 10 --exchange swap --exchange-count 6", 2,
+     "--exchange-count: expected an integer from 1 to 5"},
+    {"ImprovedSisr", kGood, kRun + "--improved", 2, "--improved: expected --filter imh or auxiliary"},
+    {"LookaheadImh", kGood, kRun + "--filter imh --parent-weights lookahead", 2, "--parent-weights lookahead"},
+    {"NoSimdYet", kGood, kRun + "--engine pipeline", 2, "--engine pipeline: this version of mote does not have"},
+    {"NoSqmcYet", kGood, kRun + "--filter sqmc", 2, "--filter sqmc: this version of mote does not have"},
+    {"NoEkfYet", kGood, kRun + "--filter ekf", 2, "--filter ekf"},
+    {"NoCheckpointYet", kGood, kRun + "--checkpoint c.bin", 2, "--checkpoint: this version"},
+    {"NoBudgetYet", kGood, kRun + "--budget 1ms", 2, "--budget: this version"},
+    {"NoTextModelsYet", kGood, "mote run model.toml --data d.csv", 2, "models given as text"},
+    {"TooManyParticles", kGood, kRun + "-n 268435457", 2, "--particles: expected an integer from 1 to 268435456"},
+    {"ParticlesInWords", kGood, kRun + "-n many", 2, "--particles: expected an integer"},
+    {"ParticlesWithExponent", kGood, kRun + "-n 1e3", 2, "--particles: expected an integer"},
+    {"SumOverParentsWithoutDensity", "t,bearing\n1,0.1\n",
+     "mote run bearings --data d.csv --filter imh --proposal wide", 2, "fewer dimensions than its state"},
+    {"NoStepsToSimulate", "", "mote simulate ungm --steps 0 --out o.csv", 2, "--steps: expected an integer from 1"},
+    {"SimulateToNowhere", "", "mote simulate ungm", 2, "--out: expected a file for the observations"},
+    {"UnknownPaper", "", "mote reproduce nature --out r", 2, "PAPER: expected one of imh-hw"},
+};
+
+const std::vector<Case> kFiles{
+    {"NoMatrices", kGood, "mote run linear-gaussian --data d.csv", 2, "--set file"},
+    {"MatricesMissing", kGood, "mote run linear-gaussian --data d.csv --set file=no.toml", 3,
+     R"(no\.toml: expected a file)"},
+    {"MatricesBroken", kGood, "mote run linear-gaussian --data d.csv --set file=other.toml", 3,
+     R"(other\.toml:1: expected TOML)", "F=[[1\n"},
+    {"MatricesInOtherLetters", kGood, "mote run linear-gaussian --data d.csv --set file=other.toml", 3,
+     R"(other\.toml:2: expected plain ASCII)", "F=[[1]]\n\xd0\xbb=1\n"},
+    {"MatricesIncomplete", kGood, "mote run linear-gaussian --data d.csv --set file=other.toml", 3,
+     R"("Q": expected a key of that name)", "F=[[1]]\n"},
+    {"MatricesOfText", kGood, "mote run linear-gaussian --data d.csv --set file=other.toml", 3, R"("F": expected)",
+     "F=[[\"a\"]]\nQ=[[1]]\nH=[[1]]\nR=[[1]]\nmean=[0]\ncovariance=[[1]]\n"},
+    {"MatricesRagged", kGood, "mote run linear-gaussian --data d.csv --set file=other.toml", 3, "rows of equal length",
+     "F=[[1,0],[0]]\nQ=[[1]]\nH=[[1]]\nR=[[1]]\nmean=[0]\ncovariance=[[1]]\n"},
+    {"MatricesOfWrongShape", kGood, "mote run linear-gaussian --data d.csv --set file=other.toml", 3, "Q must be 1 x 1",
+     "F=[[1]]\nQ=[[1,0],[0,1]]\nH=[[1]]\nR=[[1]]\nmean=[0]\ncovariance=[[1]]\n"},
+    {"MatricesAsymmetric", kGood, "mote run linear-gaussian --data d.csv --set file=other.toml", 3,
+     "covariance must be symmetric",
+     "F=[[1,0],[0,1]]\nQ=[[1,0],[0,1]]\nH=[[1,0]]\nR=[[1]]\nmean=[0,0]\ncovariance=[[1,2],[0,1]]\n"},
+    {"FolderOfOutputMissing", kGood, kRun + "--report no/r.html", 6,
+     R"(no/r\.html: expected an output that can be written)"},
+    {"OutputIsAFolder", kGood, "mkdir f; mote run local-level --data d.csv --out f; code=$?; rmdir f; exit $code", 6,
+     "f: expected an output that can be written"},
+    {"DiskFull", kGood, kRun + "--dump-particles /dev/full", 6, "/dev/full: expected an output that can be written"},
+    {"DiskFullAtTheEnd", kGood, "mote run local-level --data d.csv --out /dev/full --summary s.json", 6, "/dev/full"},
+    {"TwoOutputsInOneFile", kGood, "mote run local-level --data d.csv --out x --summary x", 2,
+     "every output in a file of its own"},
+    {"OutputOverItself", kGood, "mote simulate ungm --out x --truth ./x", 2, "every output in a file of its own"},
+};
+
+std::string name_of(const ::testing::TestParamInfo<Case>& info) { return info.param.name; }
+
+INSTANTIATE_TEST_SUITE_P(Data, Refused, ::testing::ValuesIn(kData), name_of);
+INSTANTIATE_TEST_SUITE_P(Use, Refused, ::testing::ValuesIn(kUse), name_of);
+INSTANTIATE_TEST_SUITE_P(Files, Refused, ::testing::ValuesIn(kFiles), name_of);
+
+// What may be sent in although it is not pretty.
+class Accepted : public ::testing::TestWithParam<Case> {};
+
+TEST_P(Accepted, AndEstimated) {
+  const Case& c = GetParam();
+  const Scratch scratch;
+  scratch.write("d.csv", c.data);
+  if (!c.other.empty()) scratch.write("other.toml", c.other);
+  const Ended ended = scratch.shell(c.line);
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  const std::string estimates = scratch.read("e.csv") + ended.out;
+  EXPECT_TRUE(std::regex_search(estimates, std::regex(c.sentence))) << estimates;
+}
+
+const std::vector<Case> kAccepted{
+    {"ByteOrderMark", "\xEF\xBB\xBFt,y\n1,1100\n", kRun, 0, "\n1,[0-9]"},
+    {"CarriageReturns", "t,y\r\n1,1100\r\n2,1000\r\n", kRun, 0, "\n2,[0-9]"},
+    {"BlankLinesAtTheEnd", "t,y\n1,1100\n\n\n", kRun, 0, "\n1,[0-9]"},
+    {"NoNewlineAtTheEnd", "t,y\n1,1100", kRun, 0, "\n1,[0-9]"},
+    {"QuotedHeader", "\"t\",\"y\"\n1,1100\n", kRun, 0, "\n1,[0-9]"},
+    {"Spaces", "t, y\n 1 , 1100 \n", kRun, 0, "\n1,[0-9]"},
+    {"EmptyField", "t,y\n1,\n2,1000\n", kRun, 0, "\n2,[0-9]"},
+    {"Nan", "t,y\n1,nan\n2,NaN\n", kRun, 0, "\n2,[0-9]"},
+    {"Gap", "t,y\n1,1100\n9,1000\n", kRun, 0, "\n9,[0-9]"},
+    {"FirstAtFive", "t,y\n5,1100\n", kRun, 0, "\n5,[0-9]"},
+    {"SameTimeTwice", "t,y\n1,1100\n1,1000\n2,900\n", kRun, 0, "^t,.*\n1,.*\n2,"},
+    {"ExtraColumn", "t,y,comment\n1,1100,hello\n", kRun, 0, "\n1,[0-9]"},
+    {"OneParticle", kGood, kRun + "-n 1", 0, "\n2,[0-9]"},
+    {"Estimates", kGood, kRun + "--estimate 'q0.9(level)' --estimate 'P(level>1000)' --estimate 'median(level)'", 0,
+     R"(log_evidence,q0\.9\(level\),P\(level>1000\),median\(level\))"},
+    {"StandardOutput", kGood, "mote run local-level --data d.csv --out -", 0,
+     "^t,level_mean,level_sd,ess,log_evidence\n1,"},
+    {"Pipe", kGood, "mote run local-level --data d.csv --out /dev/stdout | cat", 0, "^t,level_mean"},
+    {"CollapseKept", "t,y\n1,1e300\n2,1000\n", kRun + "--on-collapse keep", 0, "\n1,.*,-inf\n2,"},
+    {"CollapseReset", "t,y\n1,1e300\n2,1000\n", kRun + "--on-collapse reset", 0, "\n1,.*,-inf\n2,"},
+    {"Matrices", "t,y\n1,0.5\n", "mote run linear-gaussian --data d.csv --set file=other.toml --out e.csv", 0,
+     "t,x1_mean,x1_sd,x2_mean,x2_sd,ess,log_evidence", kMatrices},
+    {"Acceptance", kGood, kRun + "--filter imh --improved", 0, "ess,log_evidence,acceptance\n"},
+    {"Bearings", "t,bearing,sensor_x,sensor_y,sensor_heading\n1,0.76,0,0,0\n1,0.7,0,0.01,0\n2,0.75,0,0,0\n",
+     "mote run bearings --data d.csv --out e.csv", 0,
+     "t,x_mean,x_sd,vx_mean,vx_sd,y_mean,y_sd,vy_mean,vy_sd,ess,log_evidence\n1,"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Input, Accepted, ::testing::ValuesIn(kAccepted), name_of);
+
+TEST(Outputs, GoToStandardOutputWithoutReplacingItsFile) {
+  const Scratch scratch;
+  scratch.write("d.csv", kGood);
+  const Ended ended = scratch.shell("(echo before; mote run local-level --data d.csv --summary -; echo after) > log");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_TRUE(std::regex_search(scratch.read("log"), std::regex("^before\n\\{[^]*\\}\nafter\n$")))
+      << scratch.read("log");
+}
+
+// One seed for both must not make a particle the truth: the simulation has streams of its own.
+TEST(Simulation, SharesNoDrawWithAFilterOfTheSameSeed) {
+  const Scratch scratch;
+  const Ended ended = scratch.shell(
+      "mote simulate ungm --steps 3 --seed 5 --out d.csv --truth t.csv && "
+      "mote run ungm --data d.csv --seed 5 -n 8 --ess-threshold 0 --dump-particles p.csv && cut -d, -f2 t.csv | tail "
+      "-n +2");
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const std::string truth = scratch.read("t.csv");
+  const std::string particles = scratch.read("p.csv");
+  for (std::size_t at = truth.find('\n') + 1; at < truth.size(); at = truth.find('\n', at) + 1) {
+    const std::size_t comma = truth.find(',', at);
+    const std::string x = truth.substr(comma, truth.find('\n', at) - comma) + ",";
+    EXPECT_EQ(particles.find(x), std::string::npos) << x;
+  }
+}
+
+TEST(Outputs, ReplaceAFileWholeAndKeepItsMode) {
+  const Scratch scratch;
+  scratch.write("d.csv", kGood);
+  scratch.write("e.csv", "old");
+  const Ended ended = scratch.shell(
+      "chmod 640 e.csv && ln -s e.csv link.csv && mote run local-level --data d.csv --out link.csv && stat -c %a e.csv "
+      "&& test -L link.csv");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("640"), std::string::npos);
+  EXPECT_TRUE(scratch.read("e.csv").starts_with("t,level_mean"));
+}
+
+TEST(Outputs, InterruptedRunLeavesNothing) {
+  for (const std::string signal : {"INT", "TERM"}) {
+    const Scratch scratch;
+    std::string data = "t,y\n";
+    for (int t = 1; t <= 2000; ++t) data += std::to_string(t) + ",1000\n";
+    scratch.write("d.csv", data);
+    // exec puts the program itself behind $!; bash lets background jobs ignore SIGINT, so the signal is enabled again
+    // by env
+    const Ended ended = scratch.shell("env --default-signal=INT '" MOTE_PROGRAM
+                                      "' run local-level --data d.csv -n 1000000 --out e.csv --summary s.json "
+                                      "--dump-particles p.csv & sleep 1; kill -" +
+                                      signal + " $!; wait $!");
+    EXPECT_EQ(ended.code, 130) << ended.err;
+    EXPECT_NE(ended.err.find("interrupted after"), std::string::npos) << ended.err;
+    EXPECT_EQ(scratch.files().size(), 1U) << "only d.csv stays";
+  }
+}
+
+TEST(Outputs, AReaderThatLeavesIsAFailedWrite) {
+  const Scratch scratch;
+  std::string data = "t,y\n";
+  for (int t = 1; t <= 20000; ++t) data += std::to_string(t) + ",1000\n";
+  scratch.write("d.csv", data);
+  const Ended ended =
+      scratch.shell("{ mote run local-level --data d.csv -n 10 --out /dev/stdout; echo $? >code; } | head -1");
+  EXPECT_EQ(scratch.read("code"), "6\n") << ended.err;
+}
+
+TEST(Runs, SameSeedSameBytesWhateverTheThreads) {
+  const Scratch scratch;
+  scratch.shell("mote simulate ungm --steps 30 --seed 4 --out d.csv");
+  const Ended ended = scratch.shell(
+      "mote run ungm --data d.csv --out a.csv --threads 1; mote run ungm --data d.csv --out b.csv --threads 2; mote "
+      "run ungm --data d.csv --out c.csv --seed 2");
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_EQ(scratch.read("a.csv"), scratch.read("b.csv"));
+  EXPECT_NE(scratch.read("a.csv"), scratch.read("c.csv"));
+}
+
+}  // namespace
+}  // namespace mote::testing
