@@ -115,7 +115,7 @@ TEST(Chain, HasTheLawOfItsDecisions) {
 // referee  the weights of five values, proposed uniformly
 // design   400 chains of 2000 proposals, 500 for burning in; z from the spread between the chains
 // risk     1e-6 (|z| < 5.4 over five values, t with 399 degrees); the twin (a chain that accepts everything) must be
-// caught
+//          caught
 TEST(Chain, SettlesIntoTheWeights) {
   const std::vector<double> w{0.1, 1, 3, 0, 5.9};
   const auto worst = [&](bool decide) {

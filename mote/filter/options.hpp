@@ -22,7 +22,15 @@ struct SelectionOptions {
   double exponent = 1;       ///< selection probabilities a ~ w^exponent; survivors carry w / a (IMH-OPT II-B)
 };
 
-enum class Parents { kIid, kPermuted, kSweep };
+/// How the chain's proposals choose their parents.
+enum class Parents {
+  kIid,       ///< uniform, independent: the papers' first choice
+  kPermuted,  ///< each once, in a random order: less variance
+  kSweep,  ///< each once, in chain order, which the papers allow. Not consistent: neighbours descend from neighbours,
+           ///< so every stretch of the chain is a filter of its own whose evidence counts for nothing, and a bias stays
+           ///< however large N is
+};
+
 enum class ChainStart { kFirst, kWeighted };
 enum class ParentWeights {
   kUniform,    ///< g(k) = 1/N

@@ -63,7 +63,7 @@ double worst_z(std::size_t n, int runs, Select&& select) {
 // referee  the sums before selection, f = 1 and f = sin x
 // design   4000 selections of 40 particles, seeds 1..4000
 // risk     1e-6 over the 32 cases (|z| < 5.6); the twin (survivors of exponent 0.5 that carry equal weights) must be
-// caught
+//          caught
 TEST(Select, KeepsExpectationsForEveryExponent) {
   for (const Scheme& scheme : schemes()) {
     if (scheme.name == "metropolis") continue;  // states a bias

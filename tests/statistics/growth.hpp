@@ -61,7 +61,7 @@ inline PairedErrors paired_errors(const std::vector<Maker>& makers, std::size_t 
   return all;
 }
 
-/// SISR first, then the two designs that GOALS names.
+/// SISR first, then the papers' filter and the improved one.
 inline std::vector<Maker> growth_filters() {
   const Ungm<1> model;
   return {{"sisr", [=](std::size_t n, std::uint64_t seed) { return make_sisr(model, n, seed); }},

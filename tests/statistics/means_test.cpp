@@ -8,7 +8,7 @@ namespace mote::statistics {
 namespace {
 
 /// The worst |z| over steps and components of the mean over `runs` runs of the estimated posterior mean, against the
-/// exact one.
+/// exact one; deviations count beyond what the maker is allowed only.
 template <class M>
 double worst_mean_z(const Maker& maker, const M& model, const Recording& recording, std::size_t particles,
                     std::size_t runs) {
@@ -23,57 +23,76 @@ double worst_mean_z(const Maker& maker, const M& model, const Recording& recordi
   }
   double worst = 0;
   for (std::size_t k = 0; k < laws.size(); ++k)
-    for (std::size_t d = 0; d < dimensions; ++d)
-      worst = std::max(worst, std::abs(samples[k * dimensions + d].z(laws[k].mean(static_cast<Eigen::Index>(d)))));
+    for (std::size_t d = 0; d < dimensions; ++d) {
+      const Sample& sample = samples[k * dimensions + d];
+      const auto i = static_cast<Eigen::Index>(d);
+      const double slack = maker.bias * std::sqrt(laws[k].covariance(i, i));
+      worst = std::max(worst, std::max(0.0, std::abs(sample.mean() - laws[k].mean(i)) - slack) / sample.error());
+    }
   return worst;
-}
-
-std::vector<Maker> joined(std::vector<Maker> a, const std::vector<Maker>& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
-/// Filters whose means have a bias beyond a third of a standard error at these sizes, by their nature: weights that are
-/// never resampled degenerate, parents swept in chain order correlate neighbours, eight chains start unburnt. What they
-/// cost is measured by the evidence tests and docs/filters.md.
-bool biased_at_this_size(const Maker& maker) {
-  for (const char* word : {"never resampled", "sweep", "8 chains, first"})
-    if (maker.name.find(word) != std::string::npos) return true;
-  return false;
 }
 
 constexpr double kWorstOfAll = 6.5;  // t with 99 degrees: 1e-6 over the at most 700 means of a test is |t| < 6.4
 
-// claim    posterior means agree with the exact ones, for every filter (but biased_at_this_size) in double and float
+// claim    posterior means agree with the exact ones, for every filter in double and float
 // referee  the Kalman filter
-// design   100 runs of 1000 particles, seeds 1..100: the bias of order 1/N is a third of a standard error
+// design   100 runs of 1000 particles, seeds 1..100: a bias of order 1/N is a third of a standard error; filters with
+//          larger constants are allowed 0.02 to 0.2 posterior standard deviations (makers.hpp)
 // risk     1e-6 over all filters and steps (|t| < 6.5); the twin (sigma_y 20 % too large) must be caught for every
-// filter
+//          filter
 TEST(Means, OfTheLocalLevelAreKalmans) {
   const auto recording = local_level_recording();
   const auto worst = [&](const Maker& maker) { return worst_mean_z(maker, local_level(), recording, 1000, 100); };
-  for (const Maker& maker : joined(unbiased_filters<LocalLevelOptimal>(local_level(), true),
-                                   consistent_filters<LocalLevelOptimal>(local_level())))
-    EXPECT_TRUE(biased_at_this_size(maker) || worst(maker) < kWorstOfAll) << maker.name;
-  for (const Maker& maker : joined(unbiased_filters<LocalLevelOptimal>(local_level(1.2), false),
-                                   consistent_filters<LocalLevelOptimal>(local_level(1.2))))
+  for (const Maker& maker : unbiased_filters<LocalLevelOptimal>(local_level(), true))
+    EXPECT_LT(worst(maker), kWorstOfAll) << maker.name;
+  for (const Maker& maker : consistent_filters<LocalLevelOptimal>(local_level()))
+    EXPECT_LT(worst(maker), kWorstOfAll) << maker.name;
+  for (const Maker& maker : unbiased_filters<LocalLevelOptimal>(local_level(1.2), false))
+    EXPECT_GT(worst(maker), kWorstOfAll) << "the twin, " << maker.name;
+  for (const Maker& maker : consistent_filters<LocalLevelOptimal>(local_level(1.2)))
     EXPECT_GT(worst(maker), kWorstOfAll) << "the twin, " << maker.name;
 }
 
-// claim, referee, risk and twin as above; a plane with missing entries, 100 runs of 500 particles
+// claim, referee, risk and twin as above; a plane with missing entries
 TEST(Means, OfAPlaneWithMissingEntriesAreKalmans) {
   const auto recording = plane_recording();
-  const auto worst = [&](const Maker& maker) { return worst_mean_z(maker, plane(), recording, 500, 100); };
-  for (const Maker& maker : joined(unbiased_filters<LinearGaussianOptimal>(plane(), false),
-                                   consistent_filters<LinearGaussianOptimal>(plane())))
-    EXPECT_TRUE(biased_at_this_size(maker) || worst(maker) < kWorstOfAll) << maker.name;
+  const auto worst = [&](const Maker& maker) { return worst_mean_z(maker, plane(), recording, 1000, 100); };
+  for (const Maker& maker : unbiased_filters<LinearGaussianOptimal>(plane(), false))
+    EXPECT_LT(worst(maker), kWorstOfAll) << maker.name;
+  for (const Maker& maker : consistent_filters<LinearGaussianOptimal>(plane()))
+    EXPECT_LT(worst(maker), kWorstOfAll) << maker.name;
   EXPECT_GT(worst(unbiased_filters<LinearGaussianOptimal>(plane(1.2), false).front()), kWorstOfAll) << "the twin";
+}
+
+// claim    parents swept in chain order leave a bias that does not fall with N; permuted parents do not
+// referee  the Kalman filter
+// design   30 steps, 200 runs of 1000 particles and 40 of 10 000, the bias of the last mean (posterior standard
+//          deviation 0.8)
+// risk     1e-6 (|t| < 5.8 with 39 degrees); swept parents are the twin of permuted ones
+TEST(Means, SweptParentsDoNotConverge) {
+  const auto recording = simulate(local_level(), 30, 1001).recording;
+  const double exact = referee::kalman(local_level(), recording).back().mean(0);
+  const auto bias = [&](const std::string& name, Parents parents, std::size_t particles, std::size_t runs) {
+    Sample last;
+    for (std::uint64_t seed = 1; seed <= runs; ++seed) {
+      const auto filter =
+          make_imh(local_level(), particles, seed, {.parents = parents, .start = ChainStart::kWeighted});
+      last.values.push_back(trace(*filter, local_level().states(), recording).means.back()[0] - exact);
+    }
+    measured("local level, imh, parents " + name + ", N = " + std::to_string(particles) + ": bias of the mean",
+             last.mean(), last.error());
+    return last;
+  };
+  EXPECT_LT(std::abs(bias("permuted", Parents::kPermuted, 1000, 200).z(0)), 5.8);
+  EXPECT_LT(std::abs(bias("permuted", Parents::kPermuted, 10000, 40).z(0)), 5.8);
+  EXPECT_LT(bias("swept", Parents::kSweep, 1000, 200).z(0), -5.8);
+  EXPECT_LT(bias("swept", Parents::kSweep, 10000, 40).z(0), -5.8);
 }
 
 // claim    groups that lose weight are still close: PPF's restarted group weights and replace
 // referee  the Kalman filter; posterior standard deviations are about 0.8
 // design   100 runs of 1000 particles in 8 groups, mean of the last step
-// risk     none to speak of: bounds of 0.05, three times the measured bias
+// risk     1e-6 for an unbiased filter (0.05 is fourteen standard errors); measured biases are below 0.005
 TEST(Means, OfGroupsThatForgetWeightAreNear) {
   const auto recording = local_level_recording();
   const double exact = referee::kalman(local_level(), recording).back().mean(0);
@@ -120,8 +139,8 @@ double log_log_slope(const Maker& maker, std::size_t runs) {
 // claim    the mean square error of the mean falls like 1/N
 // referee  the Kalman filter
 // design   200 runs at each of N = 100, 200, ... 6400; the slope has a standard error of about 0.015
-// risk     1e-6 (0.1 is six standard errors); the twin (a filter whose noise is 5 % too large: a floor under the error)
-// must be caught
+// risk     1e-6 (0.1 is six standard errors); the twin (a filter whose noise is 5 % too large: a floor under the
+//          error) must be caught
 TEST(Means, ErrorFallsLikeOneOverN) {
   const auto sisr = [](double noise_scale) {
     return Maker{"sisr",

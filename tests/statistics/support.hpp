@@ -52,6 +52,7 @@ Simulated<M> simulate(const M& model, Step steps, std::uint64_t seed) {
 struct Maker {
   std::string name;
   std::function<std::unique_ptr<Filter>(std::size_t particles, std::uint64_t seed)> make;
+  double bias = 0;  ///< of a posterior mean at N = 1000, in posterior standard deviations, that a test allows it
 };
 
 /// What a filter says of a recording.

@@ -163,8 +163,9 @@ double bias_of(std::string_view scheme) { return scheme == "metropolis" ? 1e-4 :
 // claim    every scheme gives particle i a mean of N_out w_i / sum w children, to the bias that metropolis states
 // referee  Bernstein's inequality with the variance of the scheme's own law
 // design   12 weight vectors, up to 4000 calls each, seeds 1, 2, ...; neighbours pooled to at least 50 expected
-// children risk     below 1e-6 over all schemes, cases and cells (10^-10 a cell, proven, not asymptotic); twins below
-// must be caught
+//          children
+// risk     below 1e-6 over all schemes, cases and cells (10^-10 a cell, proven, not asymptotic); twins below must be
+//          caught
 TEST(Schemes, MeanOffspringIsTheWeight) {
   for (const Scheme& scheme : schemes())
     for (const Case& c : cases())
