@@ -61,7 +61,7 @@ std::string printable(std::string text) {
   return text;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t kMost = 60;
   return "\"" + printable(std::string(text.substr(0, kMost))) + (text.size() > kMost ? "...\"" : "\"");
 }
