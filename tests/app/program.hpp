@@ -7,6 +7,7 @@
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -86,7 +87,8 @@ class Child {
     pointers.push_back(nullptr);
     const std::string err = scratch.file("err");
     id_ = fork();
-    if (id_ != 0) return;
+    if (id_ < 0) throw std::runtime_error("fork failed");
+    if (id_ > 0) return;
     if (chdir(scratch.path().c_str()) != 0) _exit(99);
     dup2(open("/dev/null", O_RDWR | O_CLOEXEC), STDOUT_FILENO);
     dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600), STDERR_FILENO);
@@ -94,7 +96,10 @@ class Child {
     _exit(99);
   }
 
-  void signal(int number) const { kill(id_, number); }
+  /// Nothing when there is no such child: kill(-1) would mean every process.
+  void signal(int number) const {
+    if (id_ > 0) kill(id_, number);
+  }
 
   /// Waits for the end: exit code (128 + signal when one ended it), standard error, largest resident memory in bytes.
   struct End {
@@ -106,6 +111,7 @@ class Child {
     int status = 0;
     rusage usage{};
     wait4(id_, &status, 0, &usage);
+    id_ = -1;
     End end{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), scratch_.read("err"),
             static_cast<double>(usage.ru_maxrss) * 1024};
     std::filesystem::remove(scratch_.path() / "err");

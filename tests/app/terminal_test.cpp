@@ -17,6 +17,7 @@ std::string shown_on_terminal(const Scratch& scratch, std::vector<std::string> w
   winsize size{25, static_cast<unsigned short>(columns), 0, 0};
   int screen = -1;
   const pid_t id = forkpty(&screen, nullptr, nullptr, &size);
+  if (id < 0) throw std::runtime_error("forkpty failed");
   if (id == 0) {
     if (chdir(scratch.path().c_str()) != 0) _exit(99);
     setenv("TERM", terminal, 1);
