@@ -22,7 +22,18 @@ namespace mote {
 inline constexpr std::size_t kBlock = 1024;
 
 /// What a stream of draws is for; streams of different purposes are independent.
-enum class Purpose : std::uint32_t { kPrior, kMove, kParent, kSelect, kAccept, kStart, kObserve, kReset, kTest };
+enum class Purpose : std::uint32_t {
+  kPrior,
+  kMove,
+  kParent,
+  kSelect,
+  kAccept,
+  kStart,
+  kObserve,
+  kReset,
+  kTest,
+  kTruth
+};
 
 /// Where a block of draws lives.
 struct Address {

@@ -62,9 +62,10 @@ double bytes_needed(const Plan& plan, std::size_t dimensions) {
   const auto n = static_cast<double>(plan.particles);
   if (plan.filter == FilterKind::kSisr || plan.filter == FilterKind::kDistributed) return n * (state + 48);
   const auto draws = static_cast<double>(plan.chain.draws == 0 ? plan.particles : plan.chain.draws);
+  // `auto` may ask for as many as Q in each chain
   const double burn_in =
       static_cast<double>(plan.chain.chains) * (plan.chain.burn_in ? static_cast<double>(*plan.chain.burn_in) : draws);
-  return n * (state + 28) + (draws + (plan.chain.burn_in ? burn_in : 0)) * (state + 16);
+  return n * (state + 28) + (draws + burn_in) * (state + 16);
 }
 
 void check(const Plan& plan, const std::string& where) {

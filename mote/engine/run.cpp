@@ -59,7 +59,7 @@ RunRecord run(Filter& filter, const Plan& plan, const Recording& recording, cons
     record.step_seconds += selection.seconds();
     request.progress(k + 1, recording.steps.size());
   }
-  record.interrupted = stopped();
+  record.interrupted = record.rows.size() < recording.steps.size();
   record.predicted_steps = static_cast<std::size_t>(t);
   return record;
 }

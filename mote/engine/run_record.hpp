@@ -29,7 +29,7 @@ struct RunRecord {
   std::vector<EstimateRow> rows;
   std::size_t predicted_steps = 0;  ///< steps of the model, gaps included
   double step_seconds = 0;          ///< time in stepping and estimating
-  double wall_seconds = 0;          ///< time of the whole run, reading and writing included
+  double wall_seconds = 0;          ///< time of the whole run, reading included, before the files are written
   bool interrupted = false;         ///< ended before the data by a signal
 };
 

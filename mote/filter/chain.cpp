@@ -20,14 +20,12 @@ class Chain {
       : log_weights_(log_weights), log_uniforms_(log_uniforms), report_(report) {}
 
   void start(std::size_t proposal) {
-    at_ = proposal;
+    at_ = start_ = proposal;
     started_ = true;
   }
   std::size_t visit(std::size_t proposal) {
-    if (!started_) {
-      start(proposal);
-      return at_;
-    }
+    if (!started_) start(proposal);
+    if (proposal == start_) return at_;
     ++report_.offered;
     // a current state of weight zero gives way to any other of positive weight
     const bool accepted = log_weights_[at_] == -kInfinity
@@ -43,7 +41,7 @@ class Chain {
  private:
   std::span<const double> log_weights_, log_uniforms_;
   ChainReport& report_;
-  std::size_t at_ = 0;
+  std::size_t at_ = 0, start_ = 0;
   bool started_ = false;
 };
 

@@ -30,9 +30,11 @@ struct ChainReport {
 ///   accept proposal x^ after x with probability min(w(x^) / w(x), 1):   log u < log w(x^) - log w(x)
 ///
 /// shape   log_weights, log_uniforms: (Q + P N_b,), log_uniforms[j] decides on proposal j; not all weights zero
-///         starts: (P,) proposal that each chain starts from, or empty: the first that it visits
+///         starts: (P,) proposal that each chain starts from, or empty: the first that it visits. A chain passes its
+///         own start over, which was drawn by its weight and is no independent proposal: offered again it would bias
+///         what is kept.
 /// cost    O(Q + P N_b), one comparison a proposal
-/// source  IMH-HW (11), (16), (17)
+/// source  docs/filters.md (F13), (F14); IMH-HW (11), (16), (17)
 ChainReport run_chains(const ChainLayout& layout, std::span<const double> log_weights,
                        std::span<const double> log_uniforms, std::span<const Index> starts, std::span<Index> picks);
 
@@ -40,7 +42,7 @@ ChainReport run_chains(const ChainLayout& layout, std::span<const double> log_we
 ///
 ///   n = log(distance) / log(1 - mean / largest)
 ///
-/// source  Mengersen & Tweedie 1996, theorem 2.1: the chain converges like (1 - mean/largest)^n
+/// source  docs/filters.md (F18); Mengersen & Tweedie 1996, theorem 2.1: the chain converges like (1 - mean/largest)^n
 std::size_t burn_in_for(double mean_weight, double largest_weight, double distance, std::size_t most);
 
 }  // namespace mote

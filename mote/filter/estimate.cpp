@@ -42,9 +42,10 @@ double quantile(std::span<const double> values, std::span<const double> weights,
   double through = 0;
   for (const std::size_t i : order) {
     through += weights[i];
-    if (through >= level * total) return angle ? numbers::wrap(unrolled[i]) : unrolled[i];
+    // the last one reaches any level, whatever the sums' rounding
+    if (through >= level * total || i == order.back()) return angle ? numbers::wrap(unrolled[i]) : unrolled[i];
   }
-  return unrolled[order.back()];
+  return kNaN;
 }
 
 double probability(std::span<const double> values, std::span<const double> weights, double threshold, bool above) {

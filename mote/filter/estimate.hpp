@@ -15,13 +15,13 @@ struct Moments {
 
 /// Weighted mean and standard deviation; for an angle the circular ones.
 ///
-///   mean = sum W x,  sd = sqrt(sum W (x - mean)^2);   angle: mean = atan2(S, C), sd = sqrt(-2 log |(C, S)|), C = sum W
-///   cos x, S = sum W sin x
+///   mean = sum W x,  sd = sqrt(sum W (x - mean)^2)
+///   angle: C = sum W cos x,  S = sum W sin x,  mean = atan2(S, C),  sd = sqrt(-2 log |(C, S)|)
 ///
 /// shape   values, weights: (N,), weights >= 0 with a positive sum
 /// unit    that of the values (rad for an angle)
 /// cost    O(N), two passes
-/// source  Mardia & Jupp 2000, sec. 2.3 for the circular ones
+/// source  docs/filters.md (F28), (F29); Mardia & Jupp 2000, sec. 2.3 for the circular ones
 template <class R>
 Moments moments(std::span<const R> values, std::span<const double> weights, double total, bool angle);
 
@@ -30,6 +30,7 @@ Moments moments(std::span<const R> values, std::span<const double> weights, doub
 ///
 /// shape   0 <= level <= 1
 /// cost    O(N log N)
+/// source  docs/filters.md (F30)
 double quantile(std::span<const double> values, std::span<const double> weights, double level, bool angle);
 
 /// The weight share of the values above (or below) a threshold.

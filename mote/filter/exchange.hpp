@@ -41,7 +41,7 @@ inline std::vector<Index> extreme(std::span<const double> log_weights, std::size
     const double la = log_weights[a];
     const double lb = log_weights[b];
     if (la != lb) return heaviest ? la > lb : la < lb;
-    return a < b;
+    return heaviest ? a < b : a > b;  // so that heaviest and lightest never share a particle
   };
   std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(m), order.end(), before);
   order.resize(m);
@@ -52,12 +52,11 @@ inline std::vector<Index> extreme(std::span<const double> log_weights, std::size
 ///
 ///   swap     the particles change places, weights and all: the total weight is kept, nothing is biased
 ///   append   the receiver gets copies; sender and copy carry half the weight each: the total weight is kept
-///   replace  as append, but the copies take the places of the receiver's lightest M, whose weight is lost (PPF:
-///   impoverishment)
+///   replace  as append, but the copies take the places of the receiver's lightest M, whose weight is lost
 ///
 /// shape   M <= size of the smallest group (2 M for replace)
 /// returns the copies for append; swap and replace are done in place and return an empty inbox
-/// source  PPF section 3.4.1
+/// source  docs/filters.md (F23); PPF section 3.4.1
 template <class R>
 Inbox<R> send(Particles<R>& x, std::span<double> log_weights, const Ring& ring, const GroupOptions& options) {
   if (options.exchange == Exchange::kNone || ring.groups() < 2) return {};

@@ -1,6 +1,7 @@
 #pragma once
 /// The independent Metropolis-Hastings filter (IMH), which needs no resampling, and its auxiliary-variable form.
 
+#include <algorithm>
 #include <memory>
 
 #include "mote/base/permutation.hpp"
@@ -10,8 +11,12 @@
 
 namespace mote {
 
-/// Weight of a proposal by the mixtures over all parents:  w = p(y | x) sum_i p(x | x^i) / sum_i g(x | x^i, y); with g
-/// = p it is p(y | x). cost    O(N) a proposal when g is not p source  IMH-HW (12), IMH-OPT (17)
+/// Weight of a proposal by the mixtures over all parents; with g = p it is p(y | x).
+///
+///   w = p(y | x) sum_i p(x | x^i) / sum_i g(x | x^i, y)
+///
+/// cost    O(N) a proposal when g is not p
+/// source  docs/filters.md (F12); IMH-HW (12), IMH-OPT (17)
 struct MixtureWeight {
   template <class R, Model M, class G>
   static double log_ratio(const M& model, const G& proposal, Step t, const StateOf<M, R>& x, std::size_t,
@@ -34,8 +39,11 @@ struct MixtureWeight {
   }
 };
 
-/// Weight of a proposal x from parent k:  w = p(y | x) p(x | x^k) / (N g(k) g(x | x^k, y)); the division by N makes its
-/// mean the evidence. source  IMH-OPT (23)
+/// Weight of a proposal x from parent k; the division by N makes its mean the evidence.
+///
+///   w = p(y | x) p(x | x^k) / (N g(k) g(x | x^k, y))
+///
+/// source  docs/filters.md (F20); IMH-OPT (23)
 struct PairWeight {
   template <class R, Model M, class G>
   static double log_ratio(const M& model, const G& proposal, Step t, const StateOf<M, R>& x, std::size_t k,
@@ -50,12 +58,12 @@ struct PairWeight {
 /// states.
 ///
 ///   parents k ~ g(k), proposals x ~ g(. | x^k_{t-1}, y), Q + P N_b of them; weights by `Weight`
-///   estimates sum w f(x) / sum w over all proposals; evidence = mean w; the chains' last N states are the unweighted
-///   set
+///   estimates sum w f(x) / sum w over all proposals; evidence = mean w
+///   the chains' last N states are the unweighted set
 ///
 /// shape   N kept, Q >= N drawn, P chains
 /// cost    O(Q + P N_b) a step (times N for MixtureWeight with g not p); memory about (2 D + 3) 8 (Q + P N_b) bytes
-/// source  IMH-HW section 4, IMH-OPT section IV
+/// source  docs/filters.md (F11) to (F20), (F27); IMH-HW section 4, IMH-OPT section IV
 template <Model M, class R, class G, class Weight>
 class MetropolisFilter final : public Filter {
  public:
@@ -88,8 +96,7 @@ class MetropolisFilter final : public Filter {
     if (weighted_ == &set_) return;
     std::vector<Index> starts;
     if (options_.start == ChainStart::kWeighted && !report.collapsed) {
-      starts.resize(layout_.chains);
-      systematic(weights_, draws(t), starts);
+      starts = weighted_starts(t);
     }
     // the linear weights have served: their place takes the log uniforms
     draws(t).for_each(Purpose::kAccept, 0, weights_.size(),
@@ -108,6 +115,17 @@ class MetropolisFilter final : public Filter {
   static constexpr double kBurnInDistance = 0.01;  // total variation that `burn_in = auto` leaves
 
   Draws draws(Step t) const { return {seed_, static_cast<std::uint32_t>(t)}; }
+
+  /// Systematic draws by the weights of all proposals, dealt to the chains from a random one on: in order, each chain
+  /// would start in its own part of the cumulative sum, which depends on what that chain is about to visit.
+  std::vector<Index> weighted_starts(Step t) const {
+    std::vector<Index> starts(layout_.chains);
+    systematic(weights_, draws(t), starts);
+    auto block = draws(t).block(Purpose::kStart);
+    const std::size_t shift = block.particle(0).index(starts.size());
+    std::rotate(starts.begin(), starts.begin() + static_cast<std::ptrdiff_t>(shift), starts.end());
+    return starts;
+  }
 
   void propose_all(Step t, Rows<R> y) {
     layout_.burn_in = options_.burn_in.value_or(0);
@@ -168,7 +186,8 @@ class MetropolisFilter final : public Filter {
     return {draw.index(n), 0};
   }
 
-  /// g(k) for the auxiliary filter: half uniform, half the likelihood of the parent moved with its noise at the median.
+  /// g(k) for the auxiliary filter: half uniform, half the likelihood of the parent moved with its noise at the median;
+  /// docs/filters.md (F21).
   void prepare_parents(Step t, Rows<R> y) {
     if (options_.parent_weights == ParentWeights::kUniform) return;
     struct Still {
@@ -205,9 +224,15 @@ class MetropolisFilter final : public Filter {
     weighted_ = &proposals_;
     total_ = judgement.total;
     report.ess = judgement.ess;
-    report.log_evidence =
-        report.collapsed ? -kInfinity : judgement.log_sum - std::log(static_cast<double>(proposals_.size()));
+    report.log_evidence = report.collapsed ? -kInfinity : judgement.log_sum + log_mean_share();
     return report;
+  }
+
+  /// log of the mean weight over the sum of all. With `burn_in = auto` the mean is over the Q alone: how many more were
+  /// drawn depends on their weights, and a mean stopped by its own terms is biased.
+  double log_mean_share() const {
+    const std::size_t n = options_.burn_in ? weights_.size() : layout_.draws;
+    return std::log(ordered_sum(n, [&](std::size_t j) { return weights_[j]; }) / total_ / static_cast<double>(n));
   }
 
   StepReport unweighted(const Particles<R>& x) {

@@ -11,7 +11,7 @@ namespace mote {
 /// What to do when every particle has weight zero.
 enum class OnCollapse {
   kStop,   ///< report it; the run ends
-  kKeep,   ///< go on with the proposed particles, equally weighted, as if the step had not been observed
+  kKeep,   ///< go on with the proposed particles, equally weighted
   kReset,  ///< draw the particles anew from the prior and weigh them by the step's observation
 };
 
@@ -48,7 +48,7 @@ struct GroupOptions {
   Exchange exchange = Exchange::kNone;
   std::size_t exchange_count = 1;  ///< M, the heaviest particles sent to the next group
   bool carry_group_weights =
-      true;  ///< false: every group restarts with weight 1/K after resampling, as PPF's Alg. 5 does
+      true;  ///< false: every group restarts with weight N_k / N after resampling, as PPF's Alg. 5 does
 };
 
 }  // namespace mote

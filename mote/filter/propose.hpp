@@ -41,7 +41,7 @@ double log_importance(const M& model, const G& proposal, Step t, const StateOf<M
 
 /// Proposes in place, x_i ~ g(. | x_i, y), and adds log [p(x_i | before) / g(x_i | before, y)] to the log weights.
 ///
-/// source  IMH-HW (4), without its likelihood factor
+/// source  docs/filters.md (F3), (F4); IMH-HW (4), without its likelihood factor
 template <Model M, class R, class G>
 void propose(const M& model, const G& proposal, Step t, Rows<R> y, Particles<R>& x, std::span<double> log_weights,
              const Draws& draws) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "mote/base/log_weights.hpp"
 #include "mote/filter/exchange.hpp"
 #include "mote/filter/options.hpp"
 #include "mote/filter/particles.hpp"
@@ -27,31 +28,39 @@ struct Cloud {
   }
 };
 
-/// Replaces particles [first, first + n) by n draws among them and leaves `mass` spread over them.
+/// Draws log_weights.size() ancestors and writes the log weights that they carry, `mass` in all (in the mean).
 ///
 ///   a_i ~ w_i^exponent;  survivor j carries  mass * (W_J / A_J) / n   (equal weights when exponent = 1)
 ///
-/// shape   weights: (n,) linear, of the same particles, overwritten; not all zero
+/// shape   weights: linear, overwritten; not all zero. log_weights: (n,)
 /// source  IMH-OPT II-B
+inline std::vector<Index> draw_survivors(std::span<double> weights, std::span<double> log_weights, double log_mass,
+                                         const SelectionOptions& options, const Draws& draws) {
+  const bool plain = options.exponent == 1;
+  const auto sum = [&] { return ordered_sum(weights.size(), [&](std::size_t i) { return weights[i]; }); };
+  const double total = sum();
+  if (!plain)
+    for (double& w : weights) w = w > 0 ? std::pow(w, options.exponent) : 0;
+  std::vector<Index> ancestors(log_weights.size());
+  options.scheme->resample(weights, draws, ancestors);
+  const double spread = log_mass - std::log(static_cast<double>(log_weights.size()));
+  std::fill(log_weights.begin(), log_weights.end(), spread);
+  if (plain) return ancestors;
+  const double selection = sum();
+  for (double& w : weights) w = std::pow(w, 1 / options.exponent - 1);  // w / a of the particle, up to the totals
+  for (std::size_t j = 0; j < ancestors.size(); ++j)
+    log_weights[j] = spread + std::log(weights[ancestors[j]] * selection / total);
+  return ancestors;
+}
+
+/// Replaces particles [first, first + n) by n draws among them and leaves `mass` spread over them.
+///
+/// shape   cloud.weights: linear, those of [first, first + n) not all zero; overwritten
 template <class R>
 void resample(Cloud<R>& cloud, std::size_t first, std::size_t n, double log_mass, const SelectionOptions& options,
               const Draws& draws) {
-  const std::span<double> weights(cloud.weights.data() + first, n);
-  const bool plain = options.exponent == 1;
-  const double total = ordered_sum(n, [&](std::size_t i) { return weights[i]; });
-  if (!plain)
-    for (double& w : weights) w = w > 0 ? std::pow(w, options.exponent) : 0;
-  std::vector<Index> ancestors(n);
-  options.scheme->resample(weights, draws, ancestors);
-  const double spread = log_mass - std::log(static_cast<double>(n));
-  if (!plain) {
-    const double selection = ordered_sum(n, [&](std::size_t i) { return weights[i]; });
-    for (double& w : weights) w = std::pow(w, 1 / options.exponent - 1);  // w / a of the particle, up to the totals
-    for (std::size_t j = 0; j < n; ++j)
-      cloud.log_weights[first + j] = spread + std::log(weights[ancestors[j]] * selection / total);
-  } else {
-    std::fill_n(cloud.log_weights.begin() + static_cast<std::ptrdiff_t>(first), n, spread);
-  }
+  const auto part = [&](std::vector<double>& all) { return std::span<double>(all).subspan(first, n); };
+  std::vector<Index> ancestors = draw_survivors(part(cloud.weights), part(cloud.log_weights), log_mass, options, draws);
   for (Index& a : ancestors) a += static_cast<Index>(first);
   cloud.x.gather(ancestors, first);
 }
@@ -65,7 +74,7 @@ class Selector {
   virtual bool select(Cloud<R>& cloud, double ess, const Draws& draws) = 0;
 };
 
-/// SISR: resamples the whole set when its effective sample size is low.
+/// SISR: resamples the whole set when its effective sample size is low; docs/filters.md (F8).
 template <class R>
 class WholeSelector final : public Selector<R> {
  public:
@@ -83,7 +92,9 @@ class WholeSelector final : public Selector<R> {
 
 /// The distributed filter: exchanges particles between neighbouring groups, then resamples inside each group.
 ///
-/// source  PPF fig. 3.4; group weights are carried (properly weighted, evidence unbiased) or reset at each resampling
+/// Group weights are carried (properly weighted, evidence unbiased but for replace) or reset at each resampling.
+///
+/// source  docs/filters.md (F22) to (F24); PPF fig. 3.4
 template <class R>
 class GroupSelector final : public Selector<R> {
  public:
@@ -93,6 +104,7 @@ class GroupSelector final : public Selector<R> {
     const std::size_t n = cloud.size();
     const Ring ring(n, groups_.groups);
     const Inbox<R> inbox = send(cloud.x, cloud.log_weights, ring, groups_);
+    if (groups_.exchange == Exchange::kReplace) share_out_what_was_lost(cloud.log_weights);
     bool any = false;
     for (std::size_t k = 0; k < ring.groups(); ++k)
       any = select_group(cloud, ring.first(k), ring.size(k), inbox, k, draws) || any;
@@ -101,6 +113,13 @@ class GroupSelector final : public Selector<R> {
   }
 
  private:
+  /// The weight of replaced particles goes to all others in proportion.
+  static void share_out_what_was_lost(std::span<double> log_weights) {
+    const double left = log_sum_exp(log_weights).log_sum;
+    if (!std::isfinite(left)) return;
+    for (double& l : log_weights) l -= left;
+  }
+
   bool select_group(Cloud<R>& cloud, std::size_t first, std::size_t n, const Inbox<R>& inbox, std::size_t k,
                     const Draws& draws) {
     if (groups_.exchange == Exchange::kAppend && groups_.groups > 1)
@@ -115,7 +134,8 @@ class GroupSelector final : public Selector<R> {
     return true;
   }
 
-  /// Own particles and received ones compete for the group's n places.
+  /// Own particles and received ones compete for the group's n places, whatever the effective sample size: n + M must
+  /// become n again.
   bool select_appended(Cloud<R>& cloud, std::size_t first, std::size_t n, const Inbox<R>& inbox, std::size_t k,
                        const Draws& draws) {
     const std::size_t m = inbox.count;
@@ -131,12 +151,10 @@ class GroupSelector final : public Selector<R> {
     const LogSum mass = log_sum_exp(both.log_weights);
     if (!std::isfinite(mass.largest)) return false;
     exponentiate(both.log_weights, mass.largest, both.weights);
-    std::vector<Index> ancestors(n);
-    options_.scheme->resample(both.weights, stream(draws, k), ancestors);
+    const std::span<double> logs(cloud.log_weights.data() + first, n);
+    const std::vector<Index> ancestors = draw_survivors(both.weights, logs, mass.log_sum, options_, stream(draws, k));
     for (std::size_t d = 0; d < cloud.x.dimensions(); ++d)
       for (std::size_t j = 0; j < n; ++j) cloud.x.component(d)[first + j] = both.x.component(d)[ancestors[j]];
-    std::fill_n(cloud.log_weights.begin() + static_cast<std::ptrdiff_t>(first), n,
-                mass.log_sum - std::log(static_cast<double>(n)));
     return true;
   }
 

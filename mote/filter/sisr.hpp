@@ -11,13 +11,13 @@ namespace mote {
 
 /// A filter of particles with importance weights.
 ///
-///   x^i ~ g(. | x^i_{t-1}, y);   w^i = w^i_{t-1} p(y | x^i) p(x^i | x^i_{t-1}) / g(x^i | x^i_{t-1}, y);   evidence =
-///   sum w^i estimates from (x, w) before selection
+///   x^i ~ g(. | x^i_{t-1}, y);   w^i = W^i_{t-1} p(y | x^i) p(x^i | x^i_{t-1}) / g(x^i | x^i_{t-1}, y)
+///   evidence = sum w^i;   estimates from (x, w) before selection
 ///
 /// shape   N particles; R is the number type of states and likelihoods, weights are double
 /// error   none; a collapsed step is reported, see OnCollapse
 /// cost    O(N) a step; memory about (2 D + 3) 8 N bytes
-/// source  IMH-HW (4)-(6); FPGA (5)-(7)
+/// source  docs/filters.md (F3) to (F6), (F27); IMH-HW (4)-(6); FPGA (5)-(7)
 template <Model M, class R = double, class G = Prior>
 class ImportanceFilter final : public Filter {
  public:
@@ -34,7 +34,9 @@ class ImportanceFilter final : public Filter {
 
   StepReport predict(Step t) override {
     move(model_, t, cloud_.x, draws(t));
-    return judged(normalise(cloud_.log_weights, cloud_.weights), false);
+    // carried weights stay as they are: after a w / a selection their sum is 1 only in the mean, and belongs to the
+    // evidence
+    return judged(judge(cloud_.log_weights, cloud_.weights), false);
   }
 
   StepReport update(Step t, Rows<double> rows) override {

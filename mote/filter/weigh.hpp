@@ -9,7 +9,7 @@
 
 namespace mote {
 
-/// sum over the rows of a step of log p(y | x).
+/// sum over the rows of a step of log p(y | x); docs/filters.md (F26).
 template <class R, Model M>
 double log_likelihood(const M& model, Step t, const StateOf<M, R>& x, Rows<R> y) {
   double sum = 0;
@@ -35,18 +35,23 @@ struct Judgement {
   bool collapsed;  ///< all weights zero
 };
 
-/// Normalises log weights (log-sum-exp becomes 0) and writes linear weights with maximum 1; on collapse nothing
-/// changes.
+/// Writes linear weights with maximum 1; on collapse nothing changes.
 ///
 /// cost    O(N), one exponential a particle
-inline Judgement normalise(std::span<double> log_weights, std::span<double> weights) {
+inline Judgement judge(std::span<const double> log_weights, std::span<double> weights) {
   double largest = -kInfinity;
   for (const double l : log_weights) largest = largest < l ? l : largest;
   if (!std::isfinite(largest)) return {-kInfinity, 0, 0, true};
   const double total = exponentiate(log_weights, largest, weights);
-  const double log_sum = largest + std::log(total);
-  for (double& l : log_weights) l -= log_sum;
-  return {log_sum, total, effective_sample_size(weights), false};
+  return {largest + std::log(total), total, effective_sample_size(weights), false};
+}
+
+/// As judge(), and normalises the log weights: their log-sum-exp becomes 0.
+inline Judgement normalise(std::span<double> log_weights, std::span<double> weights) {
+  const Judgement judgement = judge(log_weights, weights);
+  if (!judgement.collapsed)
+    for (double& l : log_weights) l -= judgement.log_sum;
+  return judgement;
 }
 
 }  // namespace mote

@@ -23,11 +23,11 @@ struct BearingsWide;
 ///   x' = x + T vx + T^2/2 u,  vx' = damping vx + T u,  (y likewise),   u ~ N(0, sigma_u^2) in each axis
 ///   z  = atan2(y - sensor_y, x - sensor_x) - sensor_heading + r,   r ~ sigma_r times N(0, 1) or Student's t(dof)
 ///
-/// shape   state (x, vx, y, vy) in m, m/s; one bearing a row, in rad, relative to the sensor's heading; several rows a
-/// step source  MIXED (1)-(3): T = 1 s, damping 1, the sensor at the origin
+/// shape   state (x, vx, y, vy) in m, m/s; a row is one bearing in rad, relative to the sensor's heading
+/// source  MIXED (1)-(3): T = 1 s, damping 1, the sensor at the origin; docs/models.md
 ///
 /// The noise has two dimensions in a state of four: p(x_t | x_{t-1}) has no density there. log_transition is the
-/// density of u (Density::kNoise): ratios p/g are right, mixture sums over parents are not.
+/// density of u (Density::kNoise): ratios p/g are right, mixture sums over parents are not; docs/filters.md (F31).
 struct Bearings {
   using Parameters = BearingsParameters;
   template <class S>

@@ -17,12 +17,13 @@ struct DoaParameters {
 
 /// A source at direction theta, with velocity-to-range ratio q and heading phi, seen in frames of M directions:
 ///
-///   tan theta' = (sin theta + q sin phi) / (cos theta + q cos phi) + v1,   theta' in the half plane of the undisturbed
-///   direction q'   = q / sqrt(1 + q^2 + 2 q cos(theta - phi)) + v2 phi' = phi + v3 y_m  = theta + N(0, sigma_o^2), m
-///   = 1..M:   log p(y | theta) = K - sum_m wrap(y_m - theta)^2 / (2 sigma_o^2)
+///   tan theta' = (sin theta + q sin phi) / (cos theta + q cos phi) + v1,   in the undisturbed direction's half plane
+///   q'   = q / sqrt(1 + q^2 + 2 q cos(theta - phi)) + v2
+///   phi' = phi + v3
+///   log p(y | theta) = K - sum_m wrap(y_m - theta)^2 / (2 sigma_o^2),   m = 1..M
 ///
 /// shape   state (theta, q, phi), angles in rad and wrapped; a frame (M,), missing entries skipped
-/// source  IMH-HW (14), (15)
+/// source  IMH-HW (14), (15); docs/models.md, its density docs/filters.md (F32)
 ///
 /// v1 sits on tan theta, so the density of theta' carries the Jacobian sec^2 theta' and vanishes in the other half
 /// plane.

@@ -20,9 +20,8 @@ struct LinearGaussianParameters {
 
 /// x_t = F x_{t-1} + w,  y_t = H x_t + v,  w ~ N(0, Q),  v ~ N(0, R),  x_0 ~ N(mean, covariance).
 ///
-/// shape   Q and covariance positive semidefinite, R positive definite; a row with missing entries uses the block of R
-/// of the others error   the constructor refuses wrong shapes, asymmetric or indefinite matrices (std::invalid_argument
-/// naming the matrix)
+/// shape   Q and covariance positive semidefinite, R positive definite; a row with gaps uses R's block of the others
+/// error   the constructor refuses wrong shapes, asymmetric or indefinite matrices: std::invalid_argument naming one
 class LinearGaussian {
  public:
   template <class S>

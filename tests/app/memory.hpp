@@ -21,7 +21,7 @@ struct MemoryCase {
   std::string options;
 };
 
-inline void PrintTo(const MemoryCase& c, std::ostream* out) { *out << c.model << ' ' << c.options; }
+inline std::ostream& operator<<(std::ostream& out, const MemoryCase& c) { return out << c.model << ' ' << c.options; }
 
 /// Runs three simulated steps and holds the peak to the bound.
 inline void expect_within_bound(const MemoryCase& c) {

@@ -63,7 +63,7 @@ struct Interruption {
   std::string sentence;
 };
 
-void PrintTo(const Interruption& i, std::ostream* out) { *out << i.name; }
+std::ostream& operator<<(std::ostream& out, const Interruption& i) { return out << i.name; }
 
 class Interrupted : public ::testing::TestWithParam<Interruption> {};
 

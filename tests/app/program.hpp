@@ -80,18 +80,16 @@ class Scratch {
 /// The program as a child that is watched while it runs; standard error goes to the file "err" of the folder.
 class Child {
  public:
-  Child(const Scratch& scratch, std::vector<std::string> words) : scratch_(scratch) {
-    words.insert(words.begin(), MOTE_PROGRAM);
-    std::vector<char*> pointers;
-    for (std::string& word : words) pointers.push_back(word.data());
-    pointers.push_back(nullptr);
-    const std::string err = scratch.file("err");
-    id_ = fork();
+  Child(const Scratch& scratch, std::vector<std::string> words) : scratch_(scratch), id_(fork()) {
     if (id_ < 0) throw std::runtime_error("fork failed");
     if (id_ > 0) return;
     if (chdir(scratch.path().c_str()) != 0) _exit(99);
     dup2(open("/dev/null", O_RDWR | O_CLOEXEC), STDOUT_FILENO);
-    dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600), STDERR_FILENO);
+    dup2(open("err", O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600), STDERR_FILENO);
+    words.insert(words.begin(), MOTE_PROGRAM);
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
     execv(MOTE_PROGRAM, pointers.data());
     _exit(99);
   }

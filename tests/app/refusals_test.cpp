@@ -19,7 +19,7 @@ struct Case {
   std::string other = {};  // written to other.toml
 };
 
-void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
 
 const std::string kGood = "t,y\n1,1100\n2,1000\n";
 const std::string kRun = "mote run local-level --data d.csv --out e.csv --summary s.json -n 50 ";
@@ -327,11 +327,37 @@ const std::vector<Case> kAccepted{
 
 INSTANTIATE_TEST_SUITE_P(Input, Accepted, ::testing::ValuesIn(kAccepted), name_of);
 
+TEST(Outputs, GoToStandardOutputWithoutReplacingItsFile) {
+  const Scratch scratch;
+  scratch.write("d.csv", kGood);
+  const Ended ended = scratch.shell("(echo before; mote run local-level --data d.csv --summary -; echo after) > log");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_TRUE(std::regex_search(scratch.read("log"), std::regex("^before\n\\{[^]*\\}\nafter\n$")))
+      << scratch.read("log");
+}
+
+// One seed for both must not make a particle the truth: the simulation has streams of its own.
+TEST(Simulation, SharesNoDrawWithAFilterOfTheSameSeed) {
+  const Scratch scratch;
+  const Ended ended = scratch.shell(
+      "mote simulate ungm --steps 3 --seed 5 --out d.csv --truth t.csv && "
+      "mote run ungm --data d.csv --seed 5 -n 8 --ess-threshold 0 --dump-particles p.csv && cut -d, -f2 t.csv | tail "
+      "-n +2");
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const std::string truth = scratch.read("t.csv");
+  const std::string particles = scratch.read("p.csv");
+  for (std::size_t at = truth.find('\n') + 1; at < truth.size(); at = truth.find('\n', at) + 1) {
+    const std::size_t comma = truth.find(',', at);
+    const std::string x = truth.substr(comma, truth.find('\n', at) - comma) + ",";
+    EXPECT_EQ(particles.find(x), std::string::npos) << x;
+  }
+}
+
 struct Note {
   std::string name, line, note;
 };
 
-void PrintTo(const Note& n, std::ostream* out) { *out << n.name; }
+std::ostream& operator<<(std::ostream& out, const Note& n) { return out << n.name; }
 
 class Noted : public ::testing::TestWithParam<Note> {};
 

@@ -22,12 +22,12 @@ class CatalogueModelOf final : public CatalogueModel {
   void simulate(Step steps, std::uint64_t seed, const SimulationVisit& visit) const override {
     const Row<double> inputs = blank_row(model_);
     std::vector<double> shown;
-    auto prior = Draws{seed, 0}.block(Purpose::kPrior);
+    auto prior = Draws{seed, 0}.block(Purpose::kTruth);
     auto draw = prior.particle(0);
     StateOf<M, double> x = model_.template initial<double>(draw);
     for (Step t = 1; t <= steps; ++t) {
       const Draws draws{seed, static_cast<std::uint32_t>(t)};
-      auto moves = draws.block(Purpose::kMove);
+      auto moves = draws.block(Purpose::kTruth);
       auto observations = draws.block(Purpose::kObserve);
       auto move_draw = moves.particle(0);
       auto observe_draw = observations.particle(0);

@@ -22,7 +22,7 @@ std::string words_for(Range range) {
   return "";
 }
 
-Settings::Settings(std::string where, std::vector<std::string> texts) : where_(std::move(where)) {
+Settings::Settings(std::string where, const std::vector<std::string>& texts) : where_(std::move(where)) {
   for (const std::string& text : texts) {
     const std::size_t sign = text.find('=');
     if (sign == std::string::npos || sign == 0)

@@ -13,7 +13,7 @@ namespace mote {
 class Settings {
  public:
   /// error   Refusal (kWrongUse) for text that is not key=value, or a key given twice
-  Settings(std::string where, std::vector<std::string> texts);
+  Settings(std::string where, const std::vector<std::string>& texts);
 
   /// The text given for a key, if any; marks the key as known.
   std::optional<std::string> text(const std::string& key) const;

@@ -232,7 +232,7 @@ std::size_t Arguments::choice(const std::string& name, const std::vector<std::st
 }
 
 std::string Arguments::required(const std::string& name, const std::string& expected, const std::string& next) const {
-  const std::string given = text(name);
+  std::string given = text(name);
   if (given.empty()) throw Refusal(ExitCode::kWrongUse, {where_, name, expected, "nothing", next});
   return given;
 }

@@ -31,11 +31,12 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-identifier-naming): the name is libFuzzer's
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
-  static const auto kSources = mote::value_sources(mote::Bearings{});
-  static const auto kOptions = mote::plan_options();
-  attempt([&] { mote::parse_estimand(text, kSources, "fuzz"); });
+  static const auto sources = mote::value_sources(mote::Bearings{});
+  static const auto options = mote::plan_options();
+  attempt([&] { mote::parse_estimand(text, sources, "fuzz"); });
   attempt([&] {
     const mote::Settings settings("fuzz", {text});
     settings.number("q", 1, mote::Range::kPositive);
@@ -49,7 +50,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       entry.make(mote::Settings("fuzz", words), std::vector<std::string>{"t", "doa1"});
     }
   });
-  attempt([&] { mote::plan_from(mote::arguments_from("fuzz", kOptions, words)); });
+  attempt([&] { mote::plan_from(mote::arguments_from("fuzz", options, words)); });
   mote::nearest(text, {"sisr", "imh", "auxiliary"});
   return 0;
 }

@@ -21,7 +21,7 @@ class Outputs : public ::testing::Test {
     std::string pattern = (fs::temp_directory_path() / "mote-output-XXXXXX").string();
     folder_ = mkdtemp(pattern.data());
   }
-  ~Outputs() override { fs::remove_all(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
   std::string text_of(const std::string& name) const {
     std::ifstream file(folder_ / name);

@@ -13,8 +13,8 @@ constexpr std::array<Scheme, 8> kSchemes{{
     {"residual", residual, "floor(N w) copies each, the rest multinomial in the remainders"},
     {"roulette", roulette, "independent draws by inversion of the cumulative sum, one by one"},
     {"alias", alias, "independent draws from Vose's alias table"},
-    {"metropolis", metropolis, "short Metropolis chains on the indices; needs no sum of the weights"},
-    {"rejection", rejection, "uniform candidates accepted with w / w_max; needs no sum of the weights"},
+    {"metropolis", metropolis, "short Metropolis chains on the indices; sums the weights only to choose their length"},
+    {"rejection", rejection, "uniform candidates accepted with w / w_max; the sum serves only hopeless cases"},
 }};
 
 }  // namespace

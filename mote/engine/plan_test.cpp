@@ -1,0 +1,107 @@
+#include "mote/engine/plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mote/base/refusal.hpp"
+#include "mote/filter/particles.hpp"
+
+namespace mote {
+namespace {
+
+/// The refusal of a plan made from the default by `change`, or "".
+template <class Change>
+std::string refusal(Change&& change) {
+  Plan plan;
+  change(plan);
+  try {
+    check(plan, "mote run");
+  } catch (const Refusal& r) {
+    EXPECT_EQ(r.code(), ExitCode::kWrongUse);
+    return r.what();
+  }
+  return "";
+}
+
+/// A plan of a filter, then a change.
+template <class Change>
+std::string refusal_of(FilterKind filter, Change&& change) {
+  return refusal([&](Plan& plan) {
+    plan.filter = filter;
+    change(plan);
+  });
+}
+
+bool names(const std::string& sentence, const std::string& option) {
+  return sentence.starts_with("mote run: " + option + ": expected") && sentence.find("Pass --") != std::string::npos;
+}
+
+TEST(Plan, DefaultsAreAccepted) {
+  for (const auto filter : {FilterKind::kSisr, FilterKind::kImh, FilterKind::kAuxiliary, FilterKind::kDistributed})
+    EXPECT_EQ(refusal_of(filter, [](Plan&) {}), "");
+}
+
+TEST(Plan, RefusalsNameTheOption) {
+  EXPECT_TRUE(names(refusal([](Plan& p) { p.particles = 0; }), "--particles"));
+  EXPECT_TRUE(names(refusal([](Plan& p) { p.particles = kMostParticles + 1; }), "--particles"));
+  EXPECT_TRUE(names(refusal([](Plan& p) { p.selection.ess_threshold = -0.1; }), "--ess-threshold"));
+  EXPECT_TRUE(names(refusal([](Plan& p) { p.selection.ess_threshold = 1.1; }), "--ess-threshold"));
+  EXPECT_TRUE(names(refusal([](Plan& p) { p.selection.ess_threshold = kNaN; }), "--ess-threshold"));
+  EXPECT_TRUE(names(refusal([](Plan& p) { p.selection.exponent = 0; }), "--selection-exponent"));
+  EXPECT_TRUE(names(refusal([](Plan& p) { p.selection.exponent = 1.5; }), "--selection-exponent"));
+  EXPECT_TRUE(names(refusal([](Plan& p) { p.selection.exponent = kNaN; }), "--selection-exponent"));
+}
+
+TEST(Plan, ChainsAreCheckedForFiltersThatHaveThem) {
+  for (const auto filter : {FilterKind::kImh, FilterKind::kAuxiliary}) {
+    EXPECT_TRUE(names(refusal_of(filter, [](Plan& p) { p.chain.draws = 999; }), "--draws"))
+        << "fewer than the particles";
+    EXPECT_TRUE(names(refusal_of(filter, [](Plan& p) { p.chain.chains = 0; }), "--chains"));
+    EXPECT_TRUE(names(refusal_of(filter, [](Plan& p) { p.chain.chains = 1001; }), "--chains"));
+    EXPECT_TRUE(names(refusal_of(filter, [](Plan& p) { p.chain.burn_in = kMostParticles + 1; }), "--burn-in"));
+    EXPECT_EQ(refusal_of(filter, [](Plan& p) { p.chain = {.draws = 1000, .burn_in = std::nullopt, .chains = 1000}; }),
+              "");
+  }
+  EXPECT_EQ(refusal([](Plan& p) { p.chain.chains = 0; }), "") << "SISR has no chains";
+}
+
+TEST(Plan, GroupsAreCheckedForTheDistributedFilter) {
+  const auto of = [](std::size_t groups, Exchange exchange, std::size_t count) {
+    return refusal_of(FilterKind::kDistributed, [&](Plan& p) {
+      p.particles = 100;
+      p.groups.groups = groups;
+      p.groups.exchange = exchange;
+      p.groups.exchange_count = count;
+    });
+  };
+  EXPECT_TRUE(names(of(0, Exchange::kNone, 1), "--groups"));
+  EXPECT_TRUE(names(of(101, Exchange::kNone, 1), "--groups"));
+  EXPECT_EQ(of(100, Exchange::kNone, 0), "");
+  EXPECT_TRUE(names(of(8, Exchange::kSwap, 0), "--exchange-count"));
+  EXPECT_EQ(of(8, Exchange::kSwap, 12), "") << "the smallest group has 12";
+  EXPECT_TRUE(names(of(8, Exchange::kSwap, 13), "--exchange-count"));
+  EXPECT_EQ(of(8, Exchange::kReplace, 6), "");
+  EXPECT_TRUE(names(of(8, Exchange::kReplace, 7), "--exchange-count"));
+}
+
+TEST(Plan, FiltersHaveTheirCommandLineNames) {
+  EXPECT_EQ(name_of(FilterKind::kSisr), "sisr");
+  EXPECT_EQ(name_of(FilterKind::kImh), "imh");
+  EXPECT_EQ(name_of(FilterKind::kAuxiliary), "auxiliary");
+  EXPECT_EQ(name_of(FilterKind::kDistributed), "distributed");
+}
+
+TEST(Plan, BytesCoverTheArraysThatAFilterHolds) {
+  Plan plan;
+  plan.particles = 1000000;
+  EXPECT_GE(bytes_needed(plan, 4), 1e6 * (4 * 8 + 2 * 8));
+  plan.precision = Precision::kFloat;
+  EXPECT_GE(bytes_needed(plan, 4), 1e6 * (4 * 4 + 2 * 8));
+  plan.filter = FilterKind::kImh;
+  plan.precision = Precision::kDouble;
+  plan.chain.chains = 8;
+  plan.chain.burn_in = 1000;
+  EXPECT_GE(bytes_needed(plan, 4), 1e6 * (4 * 8 + 4) + 1008000.0 * (4 * 8 + 16));
+}
+
+}  // namespace
+}  // namespace mote
