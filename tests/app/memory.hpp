@@ -9,12 +9,6 @@
 
 namespace mote::testing {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool kMemoryIsMoteOwn = false;  // the sanitizers' shadow is many times the program's
-#else
-inline constexpr bool kMemoryIsMoteOwn = true;
-#endif
-
 struct MemoryCase {
   std::string model;
   std::size_t particles, states;

@@ -18,6 +18,12 @@
 
 namespace mote::testing {
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kMemoryIsMoteOwn = false;  // the sanitizers' shadow is many times the program's
+#else
+inline constexpr bool kMemoryIsMoteOwn = true;
+#endif
+
 /// What a run of the program left.
 struct Ended {
   int code = -1;

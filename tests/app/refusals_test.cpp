@@ -41,6 +41,7 @@ class Refused : public ::testing::TestWithParam<Case> {};
 
 TEST_P(Refused, InOneSentence) {
   const Case& c = GetParam();
+  if (c.line.find("ulimit -v") != std::string::npos && !kMemoryIsMoteOwn) GTEST_SKIP() << "a sanitizer's own memory";
   const Scratch scratch;
   if (!c.data.empty()) scratch.write("d.csv", c.data);
   if (!c.other.empty()) scratch.write("other.toml", c.other);
@@ -62,7 +63,7 @@ const std::vector<Case> kData{
     {"OnlyBlankLines", "\n \n", kRun, 3, "an empty file"},
     {"NothingToRead", "", "mote run local-level --data /dev/null", 3, "an empty file"},
     {"NoEndOfZeros", "", "mote run local-level --data /dev/zero", 3, "a byte 0, as in a binary file"},
-    {"OtherLetters", std::string("\xff\xfet\0,\0y\0", 9), kRun, 3, "a byte 0, as in a binary file"},
+    {"OtherLetters", std::string("\xff\xfet\0,\0y\0", 8), kRun, 3, "a byte 0, as in a binary file"},
     {"NameOverTwoLines", "", "mote run local-level --data 'no\nsuch'", 3, R"(^no\?such: expected a file)"},
     {"Semicolons", "t;y\n1;2\n", kRun, 3, R"(got "t;y"\. Separate the columns by commas)"},
     {"DecimalComma", "t,y\n1,2,5\n", kRun, 3, "Write numbers with a point"},
