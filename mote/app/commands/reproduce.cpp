@@ -6,6 +6,7 @@
 
 #include "mote/app/commands/command.hpp"
 #include "mote/app/files/output.hpp"
+#include "mote/app/reproduce/figures.hpp"
 #include "mote/app/reproduce/publication.hpp"
 #include "mote/app/terminal/progress.hpp"
 
@@ -13,19 +14,21 @@ namespace mote {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace reproduce;
 
 const std::vector<std::string> kPapers{"imh-hw", "fpga", "mixed", "imh-opt", "ppf"};
 
-/// The folder of the papers: beside the build tree's folder, or installed beside the program.
+/// The folder of the papers: beside the build tree's folder, or installed beside the program's.
 fs::path papers_folder(const std::string& where) {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (const fs::path& folder : {program / "../papers", program / "../share/mote/papers"})
-    if (fs::is_directory(folder, error)) return fs::weakly_canonical(folder);
-  throw Refusal(
-      ExitCode::kBadData,
-      {where, "papers", "a folder papers beside the program's folder, or share/mote/papers where it is installed",
-       "neither at " + program.string(), "Install mote, or run build/mote of a checkout."});
+  const fs::path beside = (program / "../papers").lexically_normal();
+  const fs::path installed = (program / "../share/mote/papers").lexically_normal();
+  for (const fs::path& folder : {beside, installed})
+    if (fs::is_directory(folder, error)) return folder;
+  throw Refusal(ExitCode::kBadData,
+                {where, "", fmt::format("the papers' items in {} or {}", beside.string(), installed.string()),
+                 "neither folder", "Install mote, or run build/mote of a checkout."});
 }
 
 std::vector<fs::path> items_of(const fs::path& folder) {
@@ -33,7 +36,7 @@ std::vector<fs::path> items_of(const fs::path& folder) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error))
     if (entry.path().extension() == ".toml") items.push_back(entry.path());
-  std::sort(items.begin(), items.end());
+  std::sort(items.begin(), items.end(), [](const fs::path& a, const fs::path& b) { return a.stem() < b.stem(); });
   return items;
 }
 
@@ -45,29 +48,43 @@ void make_folder(const std::string& path) {
                                            error ? error.message() : "a file of that name", "Pass another --out."});
 }
 
-std::vector<reproduce::Regenerated> regenerate_all(const std::vector<std::string>& papers, const fs::path& folder) {
-  std::vector<std::pair<std::string, fs::path>> files;
-  for (const std::string& paper : papers) {
-    const auto items = items_of(folder / paper);
-    if (items.empty()) fmt::print("{}: no items yet\n", paper);
-    for (const fs::path& item : items) files.emplace_back(paper, item);
-  }
-  std::vector<reproduce::Regenerated> all;
-  Progress progress("items");
-  for (const auto& [paper, file] : files) {
-    reproduce::Item item = reproduce::read_item(file.string(), paper);
-    reproduce::Outcome outcome = reproduce::regenerate(item);
-    all.push_back({std::move(item), std::move(outcome)});
-    progress.update(all.size(), files.size());
+std::string file_name(const Item& item) { return slug(item.paper + "-" + item.name); }
+
+/// Every item of the papers, read and checked before the first one runs.
+std::vector<Laboratory> laboratories_for(const std::vector<std::string>& papers, const fs::path& folder) {
+  std::vector<Laboratory> all;
+  for (const std::string& paper : papers)
+    for (const fs::path& file : items_of(folder / paper)) {
+      Item item = read_item(file.string(), paper);
+      for (const Laboratory& other : all)
+        if (file_name(other.item()) == file_name(item))
+          throw Refusal(ExitCode::kBadData, {item.file, "\"item\"", "a name that no other item has",
+                                             "\"" + item.name + "\", as in " + other.item().file, ""});
+      all.emplace_back(std::move(item));
+    }
+  return all;
+}
+
+std::vector<Regenerated> regenerate_all(std::vector<Laboratory>& laboratories) {
+  std::size_t work = 0;
+  std::size_t done = 0;
+  for (const Laboratory& laboratory : laboratories) work += laboratory.work();
+  std::vector<Regenerated> all;
+  Progress progress("runs");
+  for (Laboratory& laboratory : laboratories) {
+    Outcome outcome = laboratory.regenerate([&] { progress.update(++done, work); });
+    all.push_back({laboratory.item(), std::move(outcome)});
   }
   return all;
 }
 
-void print_results(const std::vector<reproduce::Regenerated>& all) {
+void write_all(const std::string& out, const std::vector<Regenerated>& all, const report::Page& page) {
+  OutputSet outputs;
+  outputs.open(out + "/comparison.json")->write(comparison_json(all).dump(2) + "\n");
+  outputs.open(out + "/index.html")->write(report::html(page));
   for (const auto& [item, outcome] : all)
-    for (const auto& result : outcome.results)
-      fmt::print("{:<5} {} {}: {}: {:.4g}\n", result.holds ? "holds" : "NOT", item.paper, item.name, result.asked.name,
-                 result.ours);
+    outputs.open(out + "/" + file_name(item) + ".csv")->write(figure_csv(outcome));
+  outputs.commit();
 }
 
 ExitCode run_reproduce(const Arguments& arguments) {
@@ -78,18 +95,15 @@ ExitCode run_reproduce(const Arguments& arguments) {
       choice == kPapers.size() ? kPapers : std::vector<std::string>{kPapers[choice]};
   const std::string out =
       arguments.required("--out", "a folder for figures, page and comparison.json", "Pass --out reproduced.");
-  const fs::path folder = papers_folder(arguments.where());
+  auto laboratories = laboratories_for(papers, papers_folder(arguments.where()));
   make_folder(out);
-  const auto all = regenerate_all(papers, folder);
-  OutputSet outputs;
-  outputs.open(out + "/comparison.json")->write(reproduce::comparison_json(all).dump(2) + "\n");
-  outputs.open(out + "/index.html")
-      ->write(report::html(reproduce::page_of(choices[choice], all, arguments.command_line())));
-  for (const auto& [item, outcome] : all)
-    outputs.open(out + "/" + reproduce::slug(item) + ".csv")->write(reproduce::figure_csv(outcome));
-  outputs.commit();
-  print_results(all);
-  fmt::print("{}/index.html, {}/comparison.json\n", out, out);
+  for (const std::string& paper : papers)
+    if (std::none_of(laboratories.begin(), laboratories.end(),
+                     [&](const Laboratory& l) { return l.item().paper == paper; }))
+      fmt::print("{}: no items yet\n", paper);
+  const auto all = regenerate_all(laboratories);
+  write_all(out, all, page_of(choices[choice], all, arguments.command_line()));
+  fmt::print("{}{}/index.html, {}/comparison.json\n", comparison_text(all), out, out);
   return ExitCode::kDone;
 }
 
@@ -101,7 +115,8 @@ Command reproduce_command() {
           {{"PAPER", "imh-hw, fpga, mixed, imh-opt, ppf or all"}},
           {{"--out", "DIR", "", "folder for figures (CSV), index.html and comparison.json", "Output"}},
           run_reproduce,
-          "Items are data: papers/<name>/*.toml. An item that does not hold is a result, not an error."};
+          "Items are data: papers/<name>/*.toml (papers/README.md says how). One that does not hold is a result, not "
+          "an error."};
 }
 
 }  // namespace mote

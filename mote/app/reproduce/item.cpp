@@ -1,12 +1,11 @@
 #include "mote/app/reproduce/item.hpp"
 
 #include <algorithm>
-#include <array>
+#include <filesystem>
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
-#include "mote/app/files/text.hpp"
+#include "mote/app/reproduce/fields.hpp"
 #include "mote/base/refusal.hpp"
 
 namespace mote::reproduce {
@@ -14,180 +13,186 @@ namespace {
 
 using Kind = Comparison::Kind;
 
-struct KindWord {
-  std::string_view word;
-  Kind kind;
-  std::size_t runs;
-};
-constexpr std::array<KindWord, 5> kKinds{{{"mean-difference", Kind::kMeanDifference, 2},
-                                          {"rmse", Kind::kRmse, 1},
-                                          {"rmse-ratio", Kind::kRmseRatio, 2},
-                                          {"normalised-error", Kind::kNormalisedError, 1},
-                                          {"evidence-spread", Kind::kEvidenceSpread, 1}}};
+constexpr std::int64_t kMostSteps = 1'000'000;
+constexpr std::int64_t kMostRepeats = 10'000;
 
-/// A TOML table whose keys are taken one by one; the leftovers are refused.
-class Fields {
- public:
-  Fields(const toml::table& table, std::string path) : table_(table), path_(std::move(path)) {}
+/// Kinds in the order of the enumeration.
+constexpr std::array<std::string_view, 7> kKinds{"mean-difference", "mean-spread",     "rmse",   "normalised-error",
+                                                 "final-bias",      "evidence-spread", "summary"};
+constexpr std::array<std::string_view, 3> kUnits{"standard-error", "posterior-sd", "absolute"};
+constexpr std::array<std::string_view, 2> kMiddles{"mean", "median"};
 
-  template <class T>
-  std::optional<T> maybe(std::string_view key) {
-    known_.emplace_back(key);
-    const toml::node* node = table_.get(key);
-    if (node == nullptr) return std::nullopt;
-    auto value = node->value<T>();
-    if (!value) refuse(*node, key, "another type");
-    return value;
-  }
-  template <class T>
-  T get(std::string_view key) {
-    auto value = maybe<T>(key);
-    if (!value) refuse(table_, key, "this key");
-    return *value;
-  }
-  std::vector<std::string> texts(std::string_view key) {
-    known_.emplace_back(key);
-    std::vector<std::string> out;
-    const toml::node* node = table_.get(key);
-    if (node == nullptr) return out;
-    if (!node->is_array()) refuse(*node, key, "a list of texts");
-    for (const auto& element : *node->as_array()) {
-      auto text = element.value<std::string>();
-      if (!text) refuse(element, key, "a list of texts");
-      out.push_back(*text);
-    }
-    return out;
-  }
-  /// The tables of a list [[key]].
-  std::vector<const toml::table*> tables(std::string_view key) {
-    known_.emplace_back(key);
-    std::vector<const toml::table*> out;
-    const toml::node* node = table_.get(key);
-    if (node == nullptr) return out;
-    if (!node->is_array_of_tables()) refuse(*node, key, fmt::format("tables [[{}]]", key));
-    for (const auto& element : *node->as_array()) out.push_back(element.as_table());
-    return out;
-  }
-  const toml::table& table(std::string_view key) {
-    known_.emplace_back(key);
-    const toml::node* node = table_.get(key);
-    if (node == nullptr || !node->is_table()) refuse(table_, key, fmt::format("a table [{}]", key));
-    return *node->as_table();
-  }
-  const toml::node* node(std::string_view key) {
-    known_.emplace_back(key);
-    return table_.get(key);
-  }
-  void finish() const {
-    for (const auto& [key, value] : table_)
-      if (std::find(known_.begin(), known_.end(), key.str()) == known_.end())
-        throw Refusal(ExitCode::kBadData, {where(value), fmt::format("\"{}\"", key.str()),
-                                           fmt::format("one of {}", fmt::join(known_, ", ")), "", ""});
-  }
-  [[noreturn]] void refuse(const toml::node& node, std::string_view key, const std::string& expected) const {
-    throw Refusal(ExitCode::kBadData, {where(node), fmt::format("\"{}\"", key), expected, "", ""});
-  }
+bool reads_state(Kind kind) { return kind != Kind::kEvidenceSpread && kind != Kind::kSummary; }
+bool averages(Kind kind) { return kind == Kind::kRmse || kind == Kind::kFinalBias || kind == Kind::kSummary; }
 
- private:
-  std::string where(const toml::node& node) const { return fmt::format("{}:{}", path_, node.source().begin.line); }
-
-  const toml::table& table_;
-  std::string path_;
-  std::vector<std::string> known_;
-};
-
-Simulated simulated_from(Fields fields) {
-  Simulated s;
-  s.model = fields.get<std::string>("model");
-  s.steps = static_cast<int>(fields.get<std::int64_t>("steps"));
-  s.seed = static_cast<std::uint64_t>(fields.maybe<std::int64_t>("seed").value_or(1));
-  s.columns = static_cast<int>(fields.maybe<std::int64_t>("columns").value_or(1));
-  s.settings = fields.texts("set");
+Source simulated_from(Fields fields) {
+  Source source{fields.where(), fields.text("model"), fields.texts("set")};
+  source.steps = static_cast<int>(fields.integer("steps", 1, kMostSteps));
+  source.seed = static_cast<std::uint64_t>(fields.integer("seed", 0, INT64_MAX / 2, 1));
+  source.columns = static_cast<int>(fields.integer("columns", 1, 4096, 1));
   fields.finish();
-  return s;
+  return source;
 }
 
-Run run_from(Fields fields) {
-  Run run{fields.get<std::string>("name"), fields.texts("options"), fields.texts("set")};
+/// Files are found beside the item.
+Source data_from(Fields fields, const std::string& path) {
+  Source source{fields.where(), fields.text("model"), fields.texts("set")};
+  const auto folder = std::filesystem::path(path).parent_path();
+  source.observations = (folder / fields.text("observations")).string();
+  if (fields.has("truth")) source.truth = (folder / fields.text("truth")).string();
+  fields.text_or("truth", "");
+  fields.finish();
+  return source;
+}
+
+Run run_from(Fields fields, const std::vector<Run>& others) {
+  Run run{fields.where(), fields.text("name"), fields.texts("options"), fields.texts("set")};
+  if (std::any_of(others.begin(), others.end(), [&](const Run& r) { return slug(r.name) == slug(run.name); }))
+    fields.refuse("name", "a name that no other run has");
   fields.finish();
   return run;
 }
 
-Figure figure_from(Fields fields) {
-  Figure figure;
-  figure.title = fields.get<std::string>("title");
-  figure.state = fields.maybe<std::string>("state").value_or("");
-  figure.error = fields.maybe<bool>("error").value_or(false);
+void check_names(const Fields& fields, const std::vector<std::string>& names, const std::vector<Run>& runs) {
+  for (const std::string& name : names)
+    if (std::none_of(runs.begin(), runs.end(), [&](const Run& r) { return r.name == name; }))
+      fields.refuse("runs", "names of the item's runs");
+}
+
+Figure figure_from(Fields fields, const std::vector<Run>& runs) {
+  Figure figure{fields.where(), fields.text("title"), fields.text_or("state", ""), fields.yes("error")};
+  if (figure.error && figure.state.empty()) fields.refuse("error", "a state whose error is drawn");
+  figure.runs = fields.texts("runs");
+  check_names(fields, figure.runs, runs);
   fields.finish();
   return figure;
 }
 
+void read_runs(Fields& fields, const std::vector<Run>& runs, Comparison& c) {
+  c.runs = fields.texts("runs");
+  const std::size_t least = c.kind == Kind::kMeanDifference ? 2 : 1;
+  if (c.runs.size() < least || c.runs.size() > 2)
+    fields.refuse("runs", least == 2 ? "a list of two runs" : "a list of one run, or of two");
+  check_names(fields, c.runs, runs);
+}
+
+void read_condition(Fields& fields, Comparison& c) {
+  c.at_least = fields.number("at_least");
+  c.at_most = fields.number("at_most");
+  c.within = fields.number("within");
+  if (fields.is_number("paper")) {
+    c.paper = *fields.number("paper");
+  } else if (auto text = fields.text_or("paper", ""); !text.empty()) {
+    c.paper = std::move(text);
+  }
+  const double* printed = std::get_if<double>(&c.paper);
+  if (c.within && (*c.within < 0 || printed == nullptr || *printed == 0))
+    fields.refuse("within", "a share of a printed number other than 0");
+  if (!c.at_least && !c.at_most && !c.within) fields.refuse("at_most", "at_least, at_most or within: when it holds");
+}
+
 Comparison comparison_from(Fields fields, const std::vector<Run>& runs) {
   Comparison c;
-  c.name = fields.get<std::string>("name");
-  const auto word = fields.get<std::string>("kind");
-  const auto* found = std::find_if(kKinds.begin(), kKinds.end(), [&](const KindWord& k) { return k.word == word; });
-  if (found == kKinds.end())
-    fields.refuse(*fields.node("kind"), "kind",
-                  "mean-difference, rmse, rmse-ratio, normalised-error or evidence-spread");
-  c.kind = found->kind;
-  c.runs = fields.texts("runs");
-  if (c.runs.size() != found->runs)
-    fields.refuse(*fields.node("kind"), "runs", fmt::format("{} run names for {}", found->runs, word));
-  for (const std::string& name : c.runs)
-    if (std::none_of(runs.begin(), runs.end(), [&](const Run& r) { return r.name == name; }))
-      fields.refuse(*fields.node("runs"), "runs", "names of the item's runs");
-  c.state = fields.maybe<std::string>("state").value_or("");
-  c.repeats = static_cast<int>(fields.maybe<std::int64_t>("repeats").value_or(20));
-  c.at_least = fields.maybe<double>("at_least");
-  c.at_most = fields.maybe<double>("at_most");
-  if (const toml::node* paper = fields.node("paper")) {
-    if (const auto number = paper->value_exact<double>()) {
-      c.paper = *number;
-    } else {
-      c.paper = paper->value_or<std::string>("");
-    }
-  }
-  c.note = fields.maybe<std::string>("note").value_or("");
+  c.where = fields.where();
+  c.name = fields.text("name");
+  if (!fields.has("kind")) fields.refuse("kind", fmt::format("one of {}", fmt::join(kKinds, ", ")));
+  c.kind = static_cast<Kind>(fields.choice("kind", kKinds));
+  read_runs(fields, runs, c);
+  if (reads_state(c.kind)) c.state = fields.text("state");
+  if (c.kind == Kind::kSummary) c.key = kSummaryKeys[fields.choice("key", kSummaryKeys)];
+  if (c.kind == Kind::kMeanDifference) c.unit = static_cast<Comparison::Unit>(fields.choice("unit", kUnits));
+  if (averages(c.kind)) c.median = fields.choice("over", kMiddles) == 1;
+  c.repeats = static_cast<int>(fields.integer("repeats", 2, kMostRepeats, 20));
+  read_condition(fields, c);
+  c.note = fields.text_or("note", "");
   fields.finish();
   return c;
 }
 
-toml::table parsed(const std::string& path) {
-  const std::string text = read_text(path);
-  refuse_other_than_ascii(path, text);
-  try {
-    return toml::parse(text, path);
-  } catch (const toml::parse_error& error) {
-    throw Refusal(ExitCode::kBadData, {fmt::format("{}:{}", path, error.source().begin.line), "", "TOML",
-                                       std::string(error.description()), ""});
-  }
-}
-
 }  // namespace
 
-std::string word_for(Kind kind) {
-  const auto* found = std::find_if(kKinds.begin(), kKinds.end(), [&](const KindWord& k) { return k.kind == kind; });
-  return std::string(found->word);
-}
-
 Item read_item(const std::string& path, const std::string& paper) {
-  const toml::table root = parsed(path);
+  const toml::table root = parsed_toml(path);
   Fields fields(root, path);
   Item item;
   item.file = path;
   item.paper = paper;
-  item.name = fields.get<std::string>("item");
-  item.title = fields.get<std::string>("title");
-  item.printed = fields.get<std::string>("printed");
-  item.note = fields.maybe<std::string>("note").value_or("");
-  item.simulated = simulated_from(Fields(fields.table("simulate"), path));
-  for (const toml::table* table : fields.tables("run")) item.runs.push_back(run_from(Fields(*table, path)));
-  for (const toml::table* table : fields.tables("figure")) item.figures.push_back(figure_from(Fields(*table, path)));
-  for (const toml::table* table : fields.tables("compare"))
-    item.comparisons.push_back(comparison_from(Fields(*table, path), item.runs));
+  item.name = fields.text("item");
+  item.title = fields.text("title");
+  item.source = fields.text("source");
+  item.printed = fields.text("printed");
+  item.note = fields.text_or("note", "");
+  if (fields.has("simulate") == fields.has("data")) fields.refuse("simulate", "a table [simulate] or a table [data]");
+  item.recording =
+      fields.has("data") ? data_from(fields.table("data"), path) : simulated_from(fields.table("simulate"));
+  for (const Fields& table : fields.tables("run")) item.runs.push_back(run_from(table, item.runs));
+  if (item.runs.empty()) fields.refuse("run", "at least one table [[run]]");
+  for (const Fields& table : fields.tables("figure")) item.figures.push_back(figure_from(table, item.runs));
+  for (const Fields& table : fields.tables("compare")) item.comparisons.push_back(comparison_from(table, item.runs));
   fields.finish();
   return item;
+}
+
+std::string meaning_of(const Comparison& c) {
+  constexpr std::array<std::string_view, 3> kIn{
+      ", in Monte-Carlo standard errors of that difference (1 = none to be seen)", ", in posterior deviations", ""};
+  const std::string over = fmt::format(", {} over recordings", kMiddles[c.median ? 1 : 0]);
+  switch (c.kind) {
+    case Kind::kMeanDifference:
+      return fmt::format(
+          "Difference of means: RMS over time between the mean estimates of two runs, each averaged over "
+          "the repeats on one recording{}",
+          kIn[static_cast<std::size_t>(c.unit)]);
+    case Kind::kMeanSpread:
+      return "Deviation of the posterior mean: Monte-Carlo deviation over repeats on one recording, RMS over time";
+    case Kind::kRmse:
+      return "RMSE: root over time of the mean squared error to the truth" + over;
+    case Kind::kNormalisedError:
+      return "Error in deviations: RMS over time and recordings of (mean - truth) / posterior deviation (1 = exact)";
+    case Kind::kFinalBias:
+      return "Final bias: mean - truth at the last step" + over;
+    case Kind::kEvidenceSpread:
+      return "Spread of the log evidence: its deviation over repeats on one recording (nat)";
+    case Kind::kSummary:
+      return "Figure of a run's summary" + over;
+  }
+  return "";
+}
+
+std::string condition_of(const Comparison& c) {
+  std::vector<std::string> parts;
+  if (c.at_least && c.at_most) {
+    parts.push_back(fmt::format("{:g} to {:g}", *c.at_least, *c.at_most));
+  } else if (c.at_least) {
+    parts.push_back(fmt::format("at least {:g}", *c.at_least));
+  } else if (c.at_most) {
+    parts.push_back(fmt::format("at most {:g}", *c.at_most));
+  }
+  if (c.within) parts.push_back(fmt::format("within {:g} % of the paper", 100 * *c.within));
+  return fmt::format("{}", fmt::join(parts, " and "));
+}
+
+std::vector<std::string> merged(std::vector<std::string> settings, const std::vector<std::string>& changes) {
+  for (const std::string& change : changes) {
+    const std::string key = change.substr(0, change.find('=') + 1);
+    std::erase_if(settings, [&](const std::string& setting) { return setting.starts_with(key); });
+  }
+  settings.insert(settings.end(), changes.begin(), changes.end());
+  return settings;
+}
+
+std::string slug(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const char low = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    if ((low >= 'a' && low <= 'z') || (low >= '0' && low <= '9')) {
+      out += low;
+    } else if (!out.empty() && out.back() != '-') {
+      out += '-';
+    }
+  }
+  while (out.ends_with('-')) out.pop_back();
+  return out;
 }
 
 }  // namespace mote::reproduce

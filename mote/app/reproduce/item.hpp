@@ -1,70 +1,105 @@
 #pragma once
-/// Items of the papers: a figure or a table, as data – what was printed, how to regenerate it, when it holds.
+/// Items of the papers: a figure, table or claim as data – what was printed, how to regenerate it, when it holds.
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
 namespace mote::reproduce {
 
-/// A simulated recording that an item's runs share.
-struct Simulated {
+/// What an item's runs filter: a simulated recording ([simulate]) or files ([data]).
+struct Source {
+  std::string where;  ///< file:line
   std::string model;
-  int steps = 0;
-  std::uint64_t seed = 1;
   std::vector<std::string> settings;  ///< name=value
-  int columns = 1;                    ///< doa: directions a frame
+  int steps = 0;                      ///< of a simulation
+  std::uint64_t seed = 1;
+  int columns = 1;                            ///< doa: directions a frame
+  std::string observations = {}, truth = {};  ///< files; observations is empty for a simulation, truth may be
+
+  bool simulated() const { return observations.empty(); }
 };
 
 /// One filter run of an item: options as on the command line of `mote run`.
 struct Run {
+  std::string where;
   std::string name;
   std::vector<std::string> options;
-  std::vector<std::string> settings;  ///< settings of the filter's model where they differ from the simulation's
+  std::vector<std::string> settings;  ///< settings of the filter's model where they differ from the recording's
 };
 
-/// What is computed and compared with the paper.
+/// What is computed and compared with the paper. With one run the quantity itself; with two, the first run's over the
+/// second's, but for kMeanDifference, which needs two, and kNormalisedError.
 struct Comparison {
   enum class Kind {
-    kMeanDifference,   ///< RMS difference over time of two runs' means, in Monte-Carlo deviations of one run
-    kRmse,             ///< RMSE to the truth, mean over repeats
-    kRmseRatio,        ///< RMSE of the first run over that of the second
-    kNormalisedError,  ///< RMS of (mean - truth) / sd; 1 = a calibrated filter
-    kEvidenceSpread,   ///< standard deviation over repeats of the log evidence on one recording
+    kMeanDifference,   ///< RMS over time of the difference of two runs' mean estimates, each averaged over repeats
+    kMeanSpread,       ///< Monte-Carlo deviation of the mean estimate: RMS over time, over repeats on one recording
+    kRmse,             ///< RMS over time of mean - truth, on a new recording each repeat
+    kNormalisedError,  ///< RMS over time and repeats of (mean - truth) / the last run's posterior sd; 1 = calibrated
+    kFinalBias,        ///< mean - truth at the last step
+    kEvidenceSpread,   ///< standard deviation of the log evidence over repeats on one recording
+    kSummary,          ///< a figure of the run's summary
   };
+  /// What a mean difference is measured in.
+  enum class Unit { kStandardError, kPosteriorSd, kAbsolute };
+
+  std::string where;
   std::string name;
   Kind kind = Kind::kRmse;
-  std::vector<std::string> runs;  ///< one, or two to compare
-  std::string state;              ///< a state, or "position" for x and y together
+  std::vector<std::string> runs;
+  std::string state;                 ///< a state, or "position" for the RMSE of x and y together
+  std::string key;                   ///< of the summary
+  Unit unit = Unit::kStandardError;  ///< of a mean difference
+  bool median = false;               ///< over the repeats, instead of the mean
   int repeats = 20;
-  std::optional<double> at_least, at_most;
+  std::optional<double> at_least, at_most;                  ///< holds inside these
+  std::optional<double> within;                             ///< holds when |ours / paper - 1| is at most this
   std::variant<std::monostate, double, std::string> paper;  ///< what the paper prints
   std::string note;
 };
 
-/// The figure of an item.
+/// One figure of an item.
 struct Figure {
+  std::string where;
   std::string title;
-  std::string state;   ///< drawn over time with the truth; empty: the track in the plane
-  bool error = false;  ///< draw |mean - truth| instead
+  std::string state;                   ///< drawn over time with the truth; empty: the track in the plane
+  bool error = false;                  ///< draw |mean - truth| instead
+  std::vector<std::string> runs = {};  ///< drawn; empty: all
 };
 
 /// One item.
 struct Item {
-  std::string file, paper, name, title, printed, note;
-  Simulated simulated;
+  std::string file, paper, name, title, source, printed, note;
+  Source recording;
   std::vector<Run> runs;
   std::vector<Figure> figures;
   std::vector<Comparison> comparisons;
 };
 
-/// Reads an item.
+/// The figures of a summary that a comparison may ask for.
+inline constexpr std::array<std::string_view, 5> kSummaryKeys{"log_evidence", "mean_ess", "acceptance", "collapses",
+                                                              "ns_per_particle_step"};
+
+/// Reads an item. `paper` is the name of its paper's folder.
 ///
-/// error   Refusal (kBadData) naming file:line for broken TOML, unknown keys, unknown kinds and runs that are not there
+/// error   Refusal (kBadData) naming file:line: broken TOML, unknown keys and kinds, runs that are not there or there
+///         twice, a comparison that nothing can fail
 Item read_item(const std::string& path, const std::string& paper);
 
-/// The words for a kind, as in the file.
-std::string word_for(Comparison::Kind kind);
+/// What a comparison computes, in a sentence's words.
+std::string meaning_of(const Comparison& comparison);
+
+/// When it holds: "at most 3", "0.9 to 1.1", "within 10 % of the paper".
+std::string condition_of(const Comparison& comparison);
+
+/// Settings with some changed: a changed one replaces its namesake.
+std::vector<std::string> merged(std::vector<std::string> settings, const std::vector<std::string>& changes);
+
+/// A name for files: "imh-hw-fig-5".
+std::string slug(const std::string& text);
 
 }  // namespace mote::reproduce

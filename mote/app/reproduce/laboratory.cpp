@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "mote/app/commands/plan_options.hpp"
+#include "mote/app/files/recording_file.hpp"
+#include "mote/app/terminal/signals.hpp"
 #include "mote/base/refusal.hpp"
 
 namespace mote::reproduce {
@@ -13,176 +15,230 @@ namespace {
 
 using Kind = Comparison::Kind;
 
-/// A simulated recording with its truth.
-struct Scene {
-  Recording recording;
-  Truth truth;
-};
-
-class Laboratory {
- public:
-  explicit Laboratory(const Item& item) : item_(item) {
-    for (int m = 1; m <= item.simulated.columns; ++m) header_.push_back("doa" + std::to_string(m));
-    source_ = made(item.simulated.settings);
-    states_ = source_->states();
+/// A wrong word inside an item is a fault of the item's file, not of the command line.
+template <class Make>
+auto as_bad_data(Make&& make) {
+  try {
+    return make();
+  } catch (const Refusal& refusal) {
+    if (refusal.code() != ExitCode::kWrongUse) throw;
+    throw Refusal(ExitCode::kBadData, std::string(refusal.what()));
   }
+}
 
-  const std::vector<Quantity>& states() const { return states_; }
+bool repeats_one_recording(Kind kind) {
+  return kind == Kind::kMeanDifference || kind == Kind::kMeanSpread || kind == Kind::kEvidenceSpread;
+}
 
-  Scene scene(std::uint64_t seed) const {
-    const Simulation simulation = source_->simulate(item_.simulated.steps, seed);
-    Scene scene;
-    for (const Column& column : source_->columns())
-      if (!column.input) scene.recording.observations.push_back(column);
-    scene.truth.known.assign(states_.size(), true);
-    for (Step t = 1; t <= item_.simulated.steps; ++t) {
-      scene.recording.steps.push_back({t, {simulation.rows[static_cast<std::size_t>(t - 1)]}});
-      scene.truth.states[t] = simulation.states[static_cast<std::size_t>(t - 1)];
-    }
-    return scene;
-  }
+bool needs_truth(Kind kind) {
+  return kind == Kind::kRmse || kind == Kind::kNormalisedError || kind == Kind::kFinalBias;
+}
 
-  RunRecord filtered(const std::string& name, const Scene& scene, std::uint64_t seed_offset) const {
-    const Run& run = *std::find_if(item_.runs.begin(), item_.runs.end(), [&](const Run& r) { return r.name == name; });
-    Plan plan = plan_from(arguments_from(item_.file + ": run \"" + name + "\"", plan_options(), run.options));
-    plan.seed += seed_offset;
-    Job job;
-    job.model_name = item_.simulated.model;
-    auto settings = item_.simulated.settings;
-    for (const std::string& changed : run.settings) {
-      const std::string key = changed.substr(0, changed.find('=') + 1);
-      std::erase_if(settings, [&](const std::string& s) { return s.starts_with(key); });
-      settings.push_back(changed);
-    }
-    job.model = made(settings);
-    job.recording = scene.recording;
-    return run_job(job, plan, request_for(job, {}, item_.file), item_.file);
-  }
-
-  double computed(const Comparison& c) const {
-    switch (c.kind) {
-      case Kind::kMeanDifference:
-        return mean_difference(c);
-      case Kind::kRmse:
-        return mean_rmse(c, c.runs[0]);
-      case Kind::kRmseRatio:
-        return mean_rmse(c, c.runs[0]) / mean_rmse(c, c.runs[1]);
-      case Kind::kNormalisedError:
-        return normalised_error(c);
-      case Kind::kEvidenceSpread:
-        return evidence_spread(c);
-    }
-    return kNaN;
-  }
-
- private:
-  std::unique_ptr<CatalogueModel> made(const std::vector<std::string>& settings) const {
-    return find_model(item_.simulated.model, item_.file).make(Settings(item_.file, settings), header_);
-  }
-
-  std::size_t place_of(const std::string& state) const {
-    for (std::size_t d = 0; d < states_.size(); ++d)
-      if (states_[d].name == state) return d;
-    throw Refusal(ExitCode::kBadData,
-                  {item_.file, "\"state\"", "a state of " + item_.simulated.model, "\"" + state + "\"", ""});
-  }
-
-  /// RMS over time of the difference of the repeats' mean estimates, over the RMS Monte-Carlo deviation of one such
-  /// difference.
-  double mean_difference(const Comparison& c) const {
-    const Scene one = scene(item_.simulated.seed);
-    const std::size_t d = place_of(c.state);
-    const std::size_t steps = one.recording.steps.size();
-    std::vector<std::vector<double>> sums(2, std::vector<double>(steps, 0));
-    std::vector<std::vector<double>> squares = sums;
-    const auto n = static_cast<double>(c.repeats);
-    for (std::size_t side = 0; side < 2; ++side)
-      for (int r = 0; r < c.repeats; ++r) {
-        // the two sides get seeds of their own, so that they are independent
-        const RunRecord record = filtered(c.runs[side], one, static_cast<std::uint64_t>(r) + 100000 * side);
-        for (std::size_t k = 0; k < steps; ++k) {
-          const double error = deviation(record.rows[k].states[d].mean, one.truth.states.at(record.rows[k].t)[d], d);
-          sums[side][k] += error;
-          squares[side][k] += error * error;
-        }
-      }
-    double difference = 0;
-    double deviation_of_one = 0;
-    for (std::size_t k = 0; k < steps; ++k) {
-      difference += std::pow((sums[0][k] - sums[1][k]) / n, 2);
-      for (std::size_t side = 0; side < 2; ++side)
-        deviation_of_one += (squares[side][k] - sums[side][k] * sums[side][k] / n) / (n - 1);
-    }
-    return std::sqrt(difference / deviation_of_one);
-  }
-
-  double mean_rmse(const Comparison& c, const std::string& run) const {
-    double sum = 0;
-    for (int r = 0; r < c.repeats; ++r) {
-      const auto offset = static_cast<std::uint64_t>(r);
-      const Scene one = scene(item_.simulated.seed + offset);
-      const Summary s = summarise(filtered(run, one, offset), &one.truth);
-      sum += c.state == "position" ? s.position_error.value().rmse : s.rmse[place_of(c.state)];
-    }
-    return sum / c.repeats;
-  }
-
-  double normalised_error(const Comparison& c) const {
-    const std::size_t d = place_of(c.state);
-    double squares = 0;
-    double count = 0;
-    for (int r = 0; r < c.repeats; ++r) {
-      const auto offset = static_cast<std::uint64_t>(r);
-      const Scene one = scene(item_.simulated.seed + offset);
-      for (const EstimateRow& row : filtered(c.runs[0], one, offset).rows) {
-        squares += std::pow(deviation(row.states[d].mean, one.truth.states.at(row.t)[d], d) / row.states[d].sd, 2);
-        count += 1;
-      }
-    }
-    return std::sqrt(squares / count);
-  }
-
-  double evidence_spread(const Comparison& c) const {
-    const Scene one = scene(item_.simulated.seed);
-    std::vector<double> evidences;
-    for (int r = 0; r < c.repeats; ++r)
-      evidences.push_back(summarise(filtered(c.runs[0], one, static_cast<std::uint64_t>(r)), nullptr).log_evidence);
-    double mean = 0;
-    double squares = 0;
-    for (const double e : evidences) mean += e / c.repeats;
-    for (const double e : evidences) squares += (e - mean) * (e - mean);
-    return std::sqrt(squares / (c.repeats - 1));
-  }
-
-  double deviation(double estimate, double truth, std::size_t d) const {
-    return states_[d].angle ? numbers::wrap(estimate - truth) : estimate - truth;
-  }
-
-  const Item& item_;
-  std::vector<std::string> header_;
-  std::unique_ptr<CatalogueModel> source_;
-  std::vector<Quantity> states_;
-};
-
-Result judged(const Comparison& asked, double ours) {
-  Result result{asked, ours, std::nullopt, !std::isnan(ours)};
-  if (const auto* paper = std::get_if<double>(&asked.paper)) result.ratio = ours / *paper;
-  if (asked.at_least) result.holds = result.holds && ours >= *asked.at_least;
-  if (asked.at_most) result.holds = result.holds && ours <= *asked.at_most;
-  return result;
+double summary_figure(const Summary& summary, const std::string& key) {
+  if (key == "log_evidence") return summary.log_evidence;
+  if (key == "mean_ess") return summary.mean_ess;
+  if (key == "acceptance") return summary.acceptance;
+  if (key == "collapses") return static_cast<double>(summary.collapses);
+  return summary.ns_per_particle_step;
 }
 
 }  // namespace
 
-Outcome regenerate(const Item& item) {
-  const Laboratory laboratory(item);
+Laboratory::Laboratory(Item item) : item_(std::move(item)) {
+  const Source& from = item_.recording;
+  for (int m = 1; m <= from.columns; ++m) header_.push_back("doa" + std::to_string(m));
+  if (!from.simulated()) header_ = read_table(from.observations).header;
+  source_ = model_with(from.settings, from.where);
+  states_ = source_->states();
+  for (const Run& run : item_.runs) benches_.emplace(run.name, bench_for(run));
+  scene(0);  // reads the data, so that its faults show before the work
+  check_figures();
+  check_comparisons();
+}
+
+std::unique_ptr<CatalogueModel> Laboratory::model_with(const std::vector<std::string>& settings,
+                                                       const std::string& where) const {
+  return as_bad_data([&] { return find_model(item_.recording.model, where).make(Settings(where, settings), header_); });
+}
+
+Laboratory::Bench Laboratory::bench_for(const Run& run) const {
+  Bench bench;
+  bench.job.model_name = item_.recording.model;
+  bench.job.model = model_with(merged(item_.recording.settings, run.settings), run.where);
+  as_bad_data([&] {
+    bench.plan = plan_from(arguments_from(run.where, plan_options(), run.options));
+    return bench.job.model->reference_filter(bench.plan, run.where);  // refuses what the model does not have
+  });
+  return bench;
+}
+
+std::optional<std::size_t> Laboratory::place_of(const std::string& state) const {
+  for (std::size_t d = 0; d < states_.size(); ++d)
+    if (states_[d].name == state) return d;
+  return std::nullopt;
+}
+
+void Laboratory::check_figures() const {
+  for (const Figure& figure : item_.figures) {
+    const bool drawn = figure.state.empty() ? place_of("x") && place_of("y") : place_of(figure.state).has_value();
+    if (drawn) continue;
+    throw Refusal(ExitCode::kBadData,
+                  {figure.where, "\"state\"", figure.state.empty() ? "a model with x and y" : "a state of the model",
+                   figure.state.empty() ? item_.recording.model : "\"" + figure.state + "\"", ""});
+  }
+}
+
+void Laboratory::check_comparisons() const {
+  const Truth& truth = scenes_.at(0).truth;
+  const auto known = [&](const std::string& state) {
+    const auto d = place_of(state);
+    return d && truth.known.size() > *d && truth.known[*d];
+  };
+  for (const Comparison& c : item_.comparisons) {
+    const bool position = c.state == "position" && c.kind == Kind::kRmse && place_of("x") && place_of("y");
+    if (!c.state.empty() && !position && !place_of(c.state))
+      throw Refusal(ExitCode::kBadData, {c.where, "\"state\"", "a state of the model", "\"" + c.state + "\"", ""});
+    if (needs_truth(c.kind) && !(position ? known("x") && known("y") : known(c.state)))
+      throw Refusal(ExitCode::kBadData, {c.where, "\"state\"", "a truth for it", "none", ""});
+  }
+}
+
+std::size_t Laboratory::work() const {
+  std::size_t runs = item_.runs.size();
+  for (const Comparison& c : item_.comparisons)
+    runs += (c.kind == Kind::kNormalisedError ? 1 : c.runs.size()) * static_cast<std::size_t>(c.repeats);
+  return runs;
+}
+
+const Laboratory::Scene& Laboratory::scene(std::uint64_t offset) {
+  if (!item_.recording.simulated()) offset = 0;
+  const auto [found, fresh] = scenes_.try_emplace(offset);
+  if (!fresh) return found->second;
+  Scene& scene = found->second;
+  const Source& from = item_.recording;
+  if (!from.simulated()) {
+    scene.recording = recording_from(read_table(from.observations), source_->columns(), from.model);
+    if (!from.truth.empty()) scene.truth = truth_from(read_table(from.truth), states_);
+    return scene;
+  }
+  for (const Column& column : source_->columns())
+    if (!column.input) scene.recording.observations.push_back(column);
+  scene.truth.known.assign(states_.size(), true);
+  source_->simulate(from.steps, from.seed + offset, [&](Step t, std::span<const double> state, const Row<double>& row) {
+    scene.recording.steps.push_back({t, {row}});
+    scene.truth.states[t].assign(state.begin(), state.end());
+    return true;
+  });
+  return scene;
+}
+
+const RunRecord& Laboratory::record(const std::string& run, std::uint64_t recording_offset, std::uint64_t seed_offset) {
+  const std::atomic<bool>& stop = stop_flag();
+  if (stop) throw Refusal(ExitCode::kInterrupted, "mote reproduce: interrupted; no file was written.");
+  const auto [found, fresh] = records_.try_emplace({run, recording_offset, seed_offset});
+  if (!fresh && !found->second.rows.empty()) return found->second;
+  Bench& bench = benches_.at(run);
+  bench.job.recording = scene(recording_offset).recording;
+  Plan plan = bench.plan;
+  plan.seed += seed_offset;
+  return found->second = run_job(bench.job, plan, request_for(bench.job, {}, item_.file), item_.file);
+}
+
+std::vector<double> Laboratory::mean_estimates(const RunRecord& record, std::size_t state) {
+  const RunRecord& origin = this->record(item_.runs.front().name, 0, 0);  // angles are measured from it
+  std::vector<double> means;
+  for (std::size_t k = 0; k < record.rows.size(); ++k) {
+    const double mean = record.rows[k].states[state].mean;
+    means.push_back(states_[state].angle ? numbers::wrap(mean - origin.rows[k].states[state].mean) : mean);
+  }
+  return means;
+}
+
+std::vector<double> Laboratory::sample(const Comparison& c, std::uint64_t repeat, std::size_t side) {
+  const bool one_recording = repeats_one_recording(c.kind);
+  const std::uint64_t apart = c.kind == Kind::kMeanDifference ? side * static_cast<std::uint64_t>(c.repeats) : 0;
+  const RunRecord& run = record(c.runs[side], one_recording ? 0 : repeat, repeat + apart);
+  ran_();
+  const Truth& truth = scene(one_recording ? 0 : repeat).truth;
+  const std::size_t d = place_of(c.state).value_or(0);
+  const auto error = [&](const EstimateRow& row) {
+    const auto known = truth.states.find(row.t);
+    const double e = known == truth.states.end() ? kNaN : row.states[d].mean - known->second[d];
+    return states_[d].angle ? numbers::wrap(e) : e;
+  };
+  switch (c.kind) {
+    case Kind::kMeanDifference:
+    case Kind::kMeanSpread:
+      return mean_estimates(run, d);
+    case Kind::kRmse: {
+      const Summary summary = summarise(run, &truth);
+      if (c.state != "position") return {summary.rmse[d]};
+      return {summary.position_error ? summary.position_error->rmse : kNaN};
+    }
+    case Kind::kNormalisedError: {
+      double squares = 0;
+      double count = 0;
+      const RunRecord& judge = record(c.runs.back(), repeat, repeat);
+      for (std::size_t k = 0; k < run.rows.size(); ++k)
+        if (const double e = error(run.rows[k]) / judge.rows[k].states[d].sd; !std::isnan(e)) squares += e * e, ++count;
+      return {squares / count};
+    }
+    case Kind::kFinalBias:
+      return {error(run.rows.back())};
+    case Kind::kEvidenceSpread:
+      return {summarise(run, nullptr).log_evidence};
+    case Kind::kSummary:
+      return {summary_figure(summarise(run, nullptr), c.key)};
+  }
+  return {kNaN};
+}
+
+Samples Laboratory::samples_of(const Comparison& c) {
+  Samples samples;
+  samples.values.resize(c.kind == Kind::kNormalisedError ? 1 : c.runs.size());
+  for (std::uint64_t r = 0; r < static_cast<std::uint64_t>(c.repeats); ++r)  // outside, so that times are paired
+    for (std::size_t side = 0; side < samples.values.size(); ++side) samples.values[side].push_back(sample(c, r, side));
+  if (c.kind != Kind::kMeanDifference || c.unit != Comparison::Unit::kPosteriorSd) return samples;
+  const std::size_t d = *place_of(c.state);
+  for (std::uint64_t r = 0; r < static_cast<std::uint64_t>(c.repeats); ++r) {
+    auto& sds = samples.sds.emplace_back();
+    for (const EstimateRow& row : record(c.runs[1], 0, r + static_cast<std::uint64_t>(c.repeats)).rows)
+      sds.push_back(row.states[d].sd);
+  }
+  return samples;
+}
+
+Result Laboratory::judged(const Comparison& c) {
+  Result result{c, kNaN, std::nullopt, std::nullopt, false};
+  try {
+    const Samples samples = samples_of(c);
+    result.ours = statistic(c, samples);
+    result.standard_error = standard_error(c, samples);
+  } catch (const Refusal& refusal) {
+    if (refusal.code() != ExitCode::kCollapsed) throw;
+  }
+  if (const auto* paper = std::get_if<double>(&c.paper); paper != nullptr && *paper != 0)
+    result.ratio = result.ours / *paper;
+  result.holds = !std::isnan(result.ours) && result.ours >= c.at_least.value_or(-kInfinity) &&
+                 result.ours <= c.at_most.value_or(kInfinity) &&
+                 (!c.within || std::abs(*result.ratio - 1) <= *c.within);
+  return result;
+}
+
+Outcome Laboratory::regenerate(const std::function<void()>& ran) {
+  ran_ = ran;
   Outcome outcome;
-  outcome.states = laboratory.states();
-  const Scene one = laboratory.scene(item.simulated.seed);
-  outcome.truth = one.truth;
-  for (const Run& run : item.runs) outcome.records.emplace_back(run.name, laboratory.filtered(run.name, one, 0));
-  for (const Comparison& comparison : item.comparisons)
-    outcome.results.push_back(judged(comparison, laboratory.computed(comparison)));
+  outcome.states = states_;
+  outcome.truth = scene(0).truth;
+  for (const ObservedStep& step : scene(0).recording.steps) outcome.times.push_back(step.t);
+  for (const Run& run : item_.runs) try {
+      ran_();
+      outcome.records.emplace_back(run.name, record(run.name, 0, 0));
+    } catch (const Refusal& refusal) {
+      if (refusal.code() != ExitCode::kCollapsed) throw;
+      outcome.collapses.push_back(run.name + ": " + refusal.what());
+    }
+  for (const Comparison& comparison : item_.comparisons) outcome.results.push_back(judged(comparison));
   return outcome;
 }
 

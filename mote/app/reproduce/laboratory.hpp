@@ -1,33 +1,81 @@
 #pragma once
-/// The laboratory: simulates an item's recording, runs its filters, computes what is compared.
+/// The laboratory: makes an item's recording, runs its filters, computes what is compared.
 
+#include <functional>
 #include <map>
+#include <memory>
+#include <tuple>
 
 #include "mote/app/commands/job.hpp"
 #include "mote/app/reproduce/item.hpp"
+#include "mote/app/reproduce/statistics.hpp"
 
 namespace mote::reproduce {
 
 /// A comparison with its result.
 struct Result {
   Comparison asked;
-  double ours;
-  std::optional<double> ratio;  ///< ours / paper, where the paper prints a number
+  double ours;                           ///< NaN where a filter collapsed or the number does not exist
+  std::optional<double> standard_error;  ///< of `ours`, over the repeats
+  std::optional<double> ratio;           ///< ours / paper, where the paper prints a number
   bool holds;
 };
 
 /// The runs of one item on its own recording, and the results of its comparisons.
 struct Outcome {
   std::vector<Quantity> states;
+  std::vector<Step> times;
   Truth truth;
-  std::vector<std::pair<std::string, RunRecord>> records;  ///< by run
+  std::vector<std::pair<std::string, RunRecord>> records;  ///< by run, those that did not collapse
+  std::vector<std::string> collapses;                      ///< what the others said
   std::vector<Result> results;
 };
 
-/// Regenerates an item. Repeats use filter seeds and recording seeds counted up from the item's; runs of one repeat
-/// share both.
-///
-/// error   Refusal naming the item's file for options, models and states that do not exist
-Outcome regenerate(const Item& item);
+/// One item at work. Repeat r adds r to the filter's seed and, where a kind asks for new recordings and the item
+/// simulates, to the recording's; a mean difference gives its two runs different filter seeds, the ratios the same.
+class Laboratory {
+ public:
+  /// Makes every model and plan of the item.
+  ///
+  /// error   Refusal (kBadData) naming file:line for models, settings, options and states that do not exist
+  explicit Laboratory(Item item);
+
+  const Item& item() const { return item_; }
+  /// Filter runs that regenerate() takes, those it has made before included.
+  std::size_t work() const;
+  /// `ran` is called after every filter run.
+  Outcome regenerate(const std::function<void()>& ran);
+
+ private:
+  struct Scene {
+    Recording recording;
+    Truth truth;
+  };
+  struct Bench {
+    Job job;
+    Plan plan;
+  };
+
+  Bench bench_for(const Run& run) const;
+  std::unique_ptr<CatalogueModel> model_with(const std::vector<std::string>& settings, const std::string& where) const;
+  void check_figures() const;
+  void check_comparisons() const;
+  std::optional<std::size_t> place_of(const std::string& state) const;
+  const Scene& scene(std::uint64_t offset);
+  const RunRecord& record(const std::string& run, std::uint64_t recording_offset, std::uint64_t seed_offset);
+  Samples samples_of(const Comparison& comparison);
+  std::vector<double> sample(const Comparison& comparison, std::uint64_t repeat, std::size_t side);
+  std::vector<double> mean_estimates(const RunRecord& record, std::size_t state);
+  Result judged(const Comparison& comparison);
+
+  Item item_;
+  std::vector<std::string> header_;
+  std::unique_ptr<CatalogueModel> source_;
+  std::vector<Quantity> states_;
+  std::map<std::string, Bench> benches_;
+  std::map<std::uint64_t, Scene> scenes_;
+  std::map<std::tuple<std::string, std::uint64_t, std::uint64_t>, RunRecord> records_;
+  std::function<void()> ran_;
+};
 
 }  // namespace mote::reproduce

@@ -1,85 +1,76 @@
 #include "mote/app/reproduce/publication.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "mote/app/files/output.hpp"
+#include "mote/app/reproduce/figures.hpp"
+#include "mote/app/reproduce/script.hpp"
 
 namespace mote::reproduce {
 namespace {
 
-using report::Chart;
-using report::Series;
+std::string name_of(const Item& item) { return item.paper + " " + item.name; }
 
 std::string paper_text(const Comparison& c) {
   if (const auto* number = std::get_if<double>(&c.paper)) return fmt::format("{:.6g}", *number);
-  if (const auto* text = std::get_if<std::string>(&c.paper)) return *text;
+  if (const auto* text = std::get_if<std::string>(&c.paper)) return "\"" + *text + "\"";
   return "not printed";
 }
 
-std::string condition(const Comparison& c) {
-  if (c.at_least && c.at_most) return fmt::format("{:g} to {:g}", *c.at_least, *c.at_most);
-  if (c.at_most) return fmt::format("at most {:g}", *c.at_most);
-  if (c.at_least) return fmt::format("at least {:g}", *c.at_least);
-  return "shown";
+std::string ours_text(const Result& result) {
+  const std::string error = result.standard_error ? fmt::format(" ± {:.2g}", *result.standard_error) : "";
+  return std::isnan(result.ours) ? "no number" : fmt::format("{:.4g}{}", result.ours, error);
 }
 
-std::size_t place_of(const std::vector<Quantity>& states, const std::string& name) {
-  std::size_t d = 0;
-  while (d < states.size() && states[d].name != name) ++d;
-  return d;
+std::string note_of(const Result& result) {
+  const Comparison& c = result.asked;
+  std::string note = fmt::format("{}; {} repeats", meaning_of(c), c.repeats);
+  if (result.standard_error) note += fmt::format(", standard error {:.2g}", *result.standard_error);
+  return fmt::format("{}; holds when {}{}{}", note, condition_of(c), c.note.empty() ? "" : ". ", c.note);
 }
 
-Chart track(const Figure& figure, const Outcome& outcome) {
-  const std::size_t ix = place_of(outcome.states, "x");
-  const std::size_t iy = place_of(outcome.states, "y");
-  Chart chart{.title = figure.title,
-              .x_label = "x (" + outcome.states[ix].unit + ")",
-              .y_label = "y (" + outcome.states[iy].unit + ")",
-              .equal_axes = true};
-  for (const auto& [name, record] : outcome.records) {
-    Series series{.name = name};
-    for (const EstimateRow& row : record.rows) {
-      series.x.push_back(row.states[ix].mean);
-      series.y.push_back(row.states[iy].mean);
-    }
-    chart.series.push_back(std::move(series));
-  }
-  Series truth{.name = "truth"};
-  for (const auto& [t, x] : outcome.truth.states) {
-    truth.x.push_back(x[ix]);
-    truth.y.push_back(x[iy]);
-  }
-  chart.series.push_back(std::move(truth));
-  return chart;
+std::size_t holding(const Outcome& outcome) {
+  return static_cast<std::size_t>(
+      std::count_if(outcome.results.begin(), outcome.results.end(), [](const Result& r) { return r.holds; }));
 }
 
-Chart over_time(const Figure& figure, const Outcome& outcome) {
-  const std::size_t d = place_of(outcome.states, figure.state);
-  const Quantity& state = outcome.states[d];
-  const std::string unit = state.unit.empty() ? "" : " (" + state.unit + ")";
-  Chart chart{.title = figure.title,
-              .x_label = "t",
-              .y_label = (figure.error ? "|error of " + state.name + "|" : state.name) + unit};
-  for (const auto& [name, record] : outcome.records) {
-    Series series{.name = name};
-    for (const EstimateRow& row : record.rows) {
-      const double error = row.states[d].mean - outcome.truth.states.at(row.t)[d];
-      series.x.push_back(row.t);
-      series.y.push_back(figure.error ? std::abs(state.angle ? numbers::wrap(error) : error) : row.states[d].mean);
-    }
-    chart.series.push_back(std::move(series));
+report::Table comparisons_table(const Item& item, const Outcome& outcome) {
+  report::Table table{
+      .title = name_of(item) + ": " + item.title,
+      .columns = {"Compared", "Paper", "Ours", "Std. error", "Ratio", "Holds when", "Holds", "Repeats"}};
+  for (const Result& result : outcome.results)
+    table.rows.push_back({result.asked.name, paper_text(result.asked),
+                          std::isnan(result.ours) ? "no number" : fmt::format("{:.4g}", result.ours),
+                          result.standard_error ? fmt::format("{:.2g}", *result.standard_error) : "",
+                          result.ratio ? fmt::format("{:.3g}", *result.ratio) : "", condition_of(result.asked),
+                          result.holds ? "yes" : "NO", std::to_string(result.asked.repeats)});
+  return table;
+}
+
+/// What the comparisons mean, each kind once, and what is said about single ones.
+std::vector<std::string> notes_on(const std::vector<Regenerated>& all) {
+  std::vector<std::string> notes{"Std. error: of our number, over its repeats (leaving out one at a time)."};
+  for (const auto& [item, outcome] : all)
+    for (const Result& result : outcome.results)
+      if (const std::string note = meaning_of(result.asked) + ".";
+          std::find(notes.begin(), notes.end(), note) == notes.end())
+        notes.push_back(note);
+  for (const auto& [item, outcome] : all) {
+    for (const Result& result : outcome.results)
+      if (!result.asked.note.empty())
+        notes.push_back(fmt::format("{}, {}: {}.", name_of(item), result.asked.name, result.asked.note));
+    for (const std::string& collapse : outcome.collapses) notes.push_back(name_of(item) + ", " + collapse);
   }
-  if (figure.error) return chart;
-  Series truth{.name = "truth"};
-  for (const auto& [t, x] : outcome.truth.states) {
-    truth.x.push_back(t);
-    truth.y.push_back(x[d]);
-  }
-  chart.series.push_back(std::move(truth));
-  return chart;
+  return notes;
+}
+
+report::Table items_table(const std::vector<Regenerated>& all) {
+  report::Table table{.title = "What the papers printed", .columns = {"Item", "Source", "Printed", "Read as"}};
+  for (const auto& [item, outcome] : all) table.rows.push_back({name_of(item), item.source, item.printed, item.note});
+  return table;
 }
 
 }  // namespace
@@ -88,79 +79,53 @@ nlohmann::json comparison_json(const std::vector<Regenerated>& all) {
   nlohmann::json list = nlohmann::json::array();
   for (const auto& [item, outcome] : all)
     for (const Result& result : outcome.results) {
-      nlohmann::json entry{{"item", item.paper + " " + item.name + ": " + result.asked.name},
-                           {"ours", nullptr},
+      nlohmann::json entry{{"item", name_of(item) + ": " + result.asked.name},
                            {"paper", nullptr},
+                           {"ours", nullptr},
                            {"ratio", nullptr},
-                           {"holds", result.holds}};
+                           {"holds", result.holds},
+                           {"note", note_of(result)}};
       if (std::isfinite(result.ours)) entry["ours"] = result.ours;
       if (const auto* number = std::get_if<double>(&result.asked.paper)) entry["paper"] = *number;
       if (const auto* text = std::get_if<std::string>(&result.asked.paper)) entry["paper"] = *text;
-      if (result.ratio) entry["ratio"] = *result.ratio;
-      entry["note"] =
-          fmt::format("{}, {} repeats; holds when {}{}{}", word_for(result.asked.kind), result.asked.repeats,
-                      condition(result.asked), result.asked.note.empty() ? "" : ". ", result.asked.note);
+      if (result.ratio && std::isfinite(*result.ratio)) entry["ratio"] = *result.ratio;
       list.push_back(std::move(entry));
     }
   return list;
 }
 
+std::string comparison_text(const std::vector<Regenerated>& all) {
+  std::string text;
+  for (const auto& [item, outcome] : all)
+    for (const Result& result : outcome.results)
+      text += fmt::format("{:<14} {}: {}: {} (paper: {}; holds when {})\n", result.holds ? "holds" : "DOES NOT HOLD",
+                          name_of(item), result.asked.name, ours_text(result), paper_text(result.asked),
+                          condition_of(result.asked));
+  return text;
+}
+
 report::Page page_of(const std::string& paper, const std::vector<Regenerated>& all, const std::string& command) {
   report::Page page{.title = "Reproduced: " + paper, .command = command};
-  std::size_t holding = 0;
-  report::Table table{.title = "Comparison with the papers",
-                      .columns = {"Item", "Compared", "Paper", "Ours", "Condition", "Holds"}};
+  std::size_t held = 0;
+  std::size_t compared = 0;
   for (const auto& [item, outcome] : all) {
-    for (const Result& result : outcome.results) {
-      holding += result.holds ? 1 : 0;
-      table.rows.push_back({item.paper + " " + item.name, result.asked.name, paper_text(result.asked),
-                            fmt::format("{:.4g}", result.ours), condition(result.asked), result.holds ? "yes" : "no"});
-    }
-    for (const Figure& figure : item.figures) {
-      Figure named = figure;
-      named.title = item.paper + " " + item.name + ": " + figure.title;
-      page.charts.push_back(figure.state.empty() ? track(named, outcome) : over_time(named, outcome));
-    }
-    page.notes.push_back(fmt::format("{} {} – {}. Printed: {}{}{}", item.paper, item.name, item.title, item.printed,
-                                     item.note.empty() ? "" : " Note: ", item.note));
+    held += holding(outcome);
+    compared += outcome.results.size();
+    page.facts.push_back({name_of(item), fmt::format("{} of {} hold", holding(outcome), outcome.results.size())});
+    for (const Figure& figure : item.figures) page.charts.push_back(chart_of(item, figure, outcome));
+    page.tables.push_back(comparisons_table(item, outcome));
+    page.command += fmt::format("\n\n# {}: {}\n{}", name_of(item), item.title, script_for(item));
+    page.command.pop_back();
   }
-  page.summary = fmt::format("{} items, {} of {} comparisons hold.", all.size(), holding, table.rows.size());
-  page.tables.push_back(std::move(table));
+  if (all.empty()) {
+    page.summary = "There are no items of this paper yet.";
+    return page;
+  }
+  page.summary =
+      fmt::format("{} item{}: {} of {} comparisons hold.", all.size(), all.size() == 1 ? "" : "s", held, compared);
+  page.tables.push_back(items_table(all));
+  page.notes = notes_on(all);
   return page;
-}
-
-std::string figure_csv(const Outcome& outcome) {
-  std::string csv = "t";
-  for (const Quantity& state : outcome.states) csv += ",truth_" + state.name;
-  for (const auto& [name, record] : outcome.records)
-    for (const Quantity& state : outcome.states)
-      csv += "," + name + "_" + state.name + "_mean," + name + "_" + state.name + "_sd";
-  csv += '\n';
-  for (std::size_t k = 0; k < outcome.records.front().second.rows.size(); ++k) {
-    const Step t = outcome.records.front().second.rows[k].t;
-    csv += std::to_string(t);
-    for (const double x : outcome.truth.states.at(t)) csv += "," + exact(x);
-    for (const auto& [name, record] : outcome.records)
-      for (const Moments& m : record.rows[k].states) csv += "," + exact(m.mean) + "," + exact(m.sd);
-    csv += '\n';
-  }
-  return csv;
-}
-
-std::string slug(const Item& item) {
-  std::string out;
-  for (const char c : item.paper + "-" + item.name) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
-    if (c >= 'A' && c <= 'Z') {
-      out += static_cast<char>(c - 'A' + 'a');
-    } else if (plain) {
-      out += c;
-    } else if (!out.empty() && out.back() != '-') {
-      out += '-';
-    }
-  }
-  while (out.ends_with('-')) out.pop_back();
-  return out;
 }
 
 }  // namespace mote::reproduce

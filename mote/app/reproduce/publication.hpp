@@ -1,5 +1,5 @@
 #pragma once
-/// The publication: figures, page and comparison of regenerated items.
+/// The publication: page and comparison of regenerated items.
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -17,13 +17,10 @@ struct Regenerated {
 /// [{item, paper, ours, ratio, holds, note}], one entry per comparison.
 nlohmann::json comparison_json(const std::vector<Regenerated>& all);
 
-/// The page of one or all papers.
+/// The comparisons as lines for a terminal.
+std::string comparison_text(const std::vector<Regenerated>& all);
+
+/// The page of one or all papers; `command` made it.
 report::Page page_of(const std::string& paper, const std::vector<Regenerated>& all, const std::string& command);
-
-/// The numbers behind an item's figures: t, truth and each run's mean and sd of every state.
-std::string figure_csv(const Outcome& outcome);
-
-/// A file name for an item: "imh-hw-fig-5".
-std::string slug(const Item& item);
 
 }  // namespace mote::reproduce

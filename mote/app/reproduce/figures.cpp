@@ -1,0 +1,111 @@
+#include "mote/app/reproduce/figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mote/app/files/output.hpp"
+
+namespace mote::reproduce {
+namespace {
+
+using report::Chart;
+using report::Series;
+
+std::size_t place_of(const Outcome& outcome, const std::string& name) {
+  std::size_t d = 0;
+  while (outcome.states[d].name != name) ++d;
+  return d;
+}
+
+std::string with_unit(const std::string& name, const std::string& unit) {
+  return unit.empty() ? name : name + " (" + unit + ")";
+}
+
+/// The true state at a time; NaN where it is not known.
+double truth_at(const Outcome& outcome, Step t, std::size_t d) {
+  const auto found = outcome.truth.states.find(t);
+  return found == outcome.truth.states.end() ? kNaN : found->second[d];
+}
+
+bool has_truth(const Outcome& outcome, std::size_t d) {
+  return outcome.truth.known.size() > d && outcome.truth.known[d];
+}
+
+void add(Series& series, double x, double y, bool angle = false) {
+  if (angle && !series.y.empty() && std::abs(y - series.y.back()) > kPi) {
+    series.x.push_back(x);
+    series.y.push_back(kNaN);
+  }
+  series.x.push_back(x);
+  series.y.push_back(y);
+}
+
+bool draws(const Figure& figure, const std::string& run) {
+  return figure.runs.empty() || std::find(figure.runs.begin(), figure.runs.end(), run) != figure.runs.end();
+}
+
+void draw_track(Chart& chart, const Figure& figure, const Outcome& outcome) {
+  const std::size_t ix = place_of(outcome, "x");
+  const std::size_t iy = place_of(outcome, "y");
+  chart.x_label = with_unit("x", outcome.states[ix].unit);
+  chart.y_label = with_unit("y", outcome.states[iy].unit);
+  chart.equal_axes = true;
+  for (const auto& [name, record] : outcome.records) {
+    if (!draws(figure, name)) continue;
+    Series& series = chart.series.emplace_back(Series{.name = name});
+    for (const EstimateRow& row : record.rows) add(series, row.states[ix].mean, row.states[iy].mean);
+  }
+  if (!has_truth(outcome, ix) || !has_truth(outcome, iy)) return;
+  Series& truth = chart.series.emplace_back(Series{.name = "truth"});
+  for (const Step t : outcome.times) add(truth, truth_at(outcome, t, ix), truth_at(outcome, t, iy));
+}
+
+void draw_over_time(Chart& chart, const Figure& figure, const Outcome& outcome) {
+  const std::size_t d = place_of(outcome, figure.state);
+  const Quantity& state = outcome.states[d];
+  chart.x_label = "t";
+  chart.y_label = with_unit(figure.error ? "|error of " + state.name + "|" : state.name, state.unit);
+  for (const auto& [name, record] : outcome.records) {
+    if (!draws(figure, name)) continue;
+    Series& series = chart.series.emplace_back(Series{.name = name});
+    for (const EstimateRow& row : record.rows) {
+      const double error = row.states[d].mean - truth_at(outcome, row.t, d);
+      if (figure.error) add(series, row.t, std::abs(state.angle ? numbers::wrap(error) : error));
+      if (!figure.error) add(series, row.t, row.states[d].mean, state.angle);
+    }
+  }
+  if (figure.error || !has_truth(outcome, d)) return;
+  Series& truth = chart.series.emplace_back(Series{.name = "truth"});
+  for (const Step t : outcome.times) add(truth, t, truth_at(outcome, t, d), state.angle);
+}
+
+}  // namespace
+
+Chart chart_of(const Item& item, const Figure& figure, const Outcome& outcome) {
+  Chart chart{.title = item.paper + " " + item.name + ": " + figure.title};
+  if (figure.state.empty()) {
+    draw_track(chart, figure, outcome);
+  } else {
+    draw_over_time(chart, figure, outcome);
+  }
+  return chart;
+}
+
+std::string figure_csv(const Outcome& outcome) {
+  std::string csv = "t";
+  for (const Quantity& state : outcome.states) csv += ",truth_" + state.name;
+  for (const auto& [name, record] : outcome.records)
+    for (const Quantity& state : outcome.states)
+      for (const char* moment : {"_mean", "_sd"}) csv += "," + slug(name) + "_" + state.name + moment;
+  csv += '\n';
+  for (std::size_t k = 0; k < outcome.times.size(); ++k) {
+    csv += std::to_string(outcome.times[k]);
+    for (std::size_t d = 0; d < outcome.states.size(); ++d) csv += "," + exact(truth_at(outcome, outcome.times[k], d));
+    for (const auto& [name, record] : outcome.records)
+      for (const Moments& m : record.rows[k].states) csv += "," + exact(m.mean) + "," + exact(m.sd);
+    csv += '\n';
+  }
+  return csv;
+}
+
+}  // namespace mote::reproduce

@@ -1,0 +1,17 @@
+#pragma once
+/// The figures of a regenerated item: charts, and the numbers behind them.
+
+#include "mote/app/reproduce/laboratory.hpp"
+#include "mote/report/page.hpp"
+
+namespace mote::reproduce {
+
+/// The chart of a figure: every run and the truth, over time or in the plane. An angle that jumps by more than half a
+/// turn breaks its line.
+report::Chart chart_of(const Item& item, const Figure& figure, const Outcome& outcome);
+
+/// The numbers behind an item's figures as CSV: t, the truth and each run's mean and sd of every state
+/// ("imh_theta_mean").
+std::string figure_csv(const Outcome& outcome);
+
+}  // namespace mote::reproduce

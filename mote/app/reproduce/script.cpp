@@ -1,0 +1,49 @@
+#include "mote/app/reproduce/script.hpp"
+
+#include <fmt/format.h>
+
+namespace mote::reproduce {
+namespace {
+
+constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=./,:+%@";
+
+/// A word as a shell takes it.
+std::string shell_word(const std::string& word) {
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string set_options(const std::vector<std::string>& settings) {
+  std::string words;
+  for (const std::string& setting : settings) words += " --set " + shell_word(setting);
+  return words;
+}
+
+}  // namespace
+
+std::string script_for(const Item& item) {
+  const Source& from = item.recording;
+  const std::string base = slug(item.paper + "-" + item.name);
+  std::string data = from.observations;
+  std::string truth = from.truth;
+  std::string script;
+  if (from.simulated()) {
+    data = base + "-data.csv";
+    truth = base + "-truth.csv";
+    script = fmt::format("mote simulate {} --steps {} --seed {}{}{} --out {} --truth {}\n", from.model, from.steps,
+                         from.seed, from.columns > 1 ? fmt::format(" --columns {}", from.columns) : "",
+                         set_options(from.settings), data, truth);
+  }
+  for (const Run& run : item.runs) {
+    script += fmt::format("mote run {} --data {}{}{}", from.model, shell_word(data),
+                          truth.empty() ? "" : " --truth " + shell_word(truth),
+                          set_options(merged(from.settings, run.settings)));
+    for (const std::string& option : run.options) script += " " + shell_word(option);
+    script += fmt::format(" --out {}-{}.csv\n", base, slug(run.name));
+  }
+  return script;
+}
+
+}  // namespace mote::reproduce

@@ -1,0 +1,14 @@
+#pragma once
+/// An item as commands: the lines of a shell that make its recording and its runs again.
+
+#include <string>
+
+#include "mote/app/reproduce/item.hpp"
+
+namespace mote::reproduce {
+
+/// `mote simulate` for the item's recording and `mote run` for each of its runs, by name of file:
+/// "imh-hw-fig-5-data.csv", "imh-hw-fig-5-imh.csv".
+std::string script_for(const Item& item);
+
+}  // namespace mote::reproduce

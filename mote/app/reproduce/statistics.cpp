@@ -1,0 +1,92 @@
+#include "mote/app/reproduce/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mote/base/numbers.hpp"
+
+namespace mote::reproduce {
+namespace {
+
+using Kind = Comparison::Kind;
+using Values = std::vector<std::vector<double>>;  // (R, n)
+
+double mean_at(const Values& values, std::size_t t) {
+  double sum = 0;
+  for (const auto& repeat : values) sum += repeat[t];
+  return sum / static_cast<double>(values.size());
+}
+
+double variance_at(const Values& values, std::size_t t) {
+  const double mean = mean_at(values, t);
+  double squares = 0;
+  for (const auto& repeat : values) squares += (repeat[t] - mean) * (repeat[t] - mean);
+  return squares / static_cast<double>(values.size() - 1);
+}
+
+double median(const Values& values) {
+  std::vector<double> sorted;
+  for (const auto& repeat : values) sorted.push_back(repeat.front());
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t half = sorted.size() / 2;
+  return sorted.size() % 2 == 1 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
+}
+
+double mean_difference(Comparison::Unit unit, const Samples& samples) {
+  const Values& a = samples.values[0];
+  const Values& b = samples.values[1];
+  double squares = 0;
+  double variances = 0;
+  const std::size_t steps = a.front().size();
+  for (std::size_t t = 0; t < steps; ++t) {
+    double difference = mean_at(a, t) - mean_at(b, t);
+    if (unit == Comparison::Unit::kPosteriorSd) difference /= mean_at(samples.sds, t);
+    squares += difference * difference;
+    variances += variance_at(a, t) + variance_at(b, t);
+  }
+  if (unit == Comparison::Unit::kStandardError)
+    return std::sqrt(squares / (variances / static_cast<double>(samples.repeats())));
+  return std::sqrt(squares / static_cast<double>(steps));
+}
+
+/// Root of the mean variance: over time, or of a single number.
+double spread(const Values& values) {
+  double variances = 0;
+  const std::size_t n = values.front().size();
+  for (std::size_t t = 0; t < n; ++t) variances += variance_at(values, t);
+  return std::sqrt(variances / static_cast<double>(n));
+}
+
+double of_one_run(const Comparison& c, const Values& values) {
+  if (c.kind == Kind::kMeanSpread || c.kind == Kind::kEvidenceSpread) return spread(values);
+  if (c.kind == Kind::kNormalisedError) return std::sqrt(mean_at(values, 0));
+  return c.median ? median(values) : mean_at(values, 0);
+}
+
+Samples without(const Samples& samples, std::size_t repeat) {
+  Samples rest = samples;
+  const auto at = static_cast<std::ptrdiff_t>(repeat);
+  for (Values& values : rest.values) values.erase(values.begin() + at);
+  if (!rest.sds.empty()) rest.sds.erase(rest.sds.begin() + at);
+  return rest;
+}
+
+}  // namespace
+
+double statistic(const Comparison& c, const Samples& samples) {
+  if (c.kind == Kind::kMeanDifference) return mean_difference(c.unit, samples);
+  const double first = of_one_run(c, samples.values[0]);
+  return samples.values.size() == 2 ? first / of_one_run(c, samples.values[1]) : first;
+}
+
+std::optional<double> standard_error(const Comparison& c, const Samples& samples) {
+  const bool judges_itself = c.kind == Kind::kMeanDifference && c.unit == Comparison::Unit::kStandardError;
+  if (c.median || judges_itself || samples.repeats() < 3) return std::nullopt;
+  const std::size_t n = samples.repeats();
+  Values left;
+  for (std::size_t r = 0; r < n; ++r) left.push_back({statistic(c, without(samples, r))});
+  const auto count = static_cast<double>(n);
+  return (count - 1) / std::sqrt(count) * spread(left);
+}
+
+}  // namespace mote::reproduce

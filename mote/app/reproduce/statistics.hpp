@@ -1,0 +1,38 @@
+#pragma once
+/// What comparisons compute from the repeats of runs.
+
+#include <optional>
+#include <vector>
+
+#include "mote/app/reproduce/item.hpp"
+
+namespace mote::reproduce {
+
+/// What a comparison takes from its repeats: a few numbers of each, by run.
+///
+/// shape   values: (runs, R, n); sds: (R, n), the posterior deviations of the second run, for kMeanDifference
+///         n = T steps for kMeanDifference and kMeanSpread, else 1
+struct Samples {
+  std::vector<std::vector<std::vector<double>>> values;
+  std::vector<std::vector<double>> sds;
+
+  std::size_t repeats() const { return values.front().size(); }
+};
+
+/// The number that a comparison asks for.
+///
+///   mean-difference   sqrt(mean_t (a_t - b_t)^2) / unit,   a_t, b_t: means over repeats
+///                     unit: sqrt(mean_t (var a_t + var b_t) / R), or each difference by its posterior sd, or 1
+///   mean-spread       sqrt(mean_t var a_t)
+///   evidence-spread   sqrt(var a);   normalised-error   sqrt(mean a), a: mean squares;   the others: mean or median of
+///   a
+///
+/// With two runs, all but the mean difference are the first's over the second's.
+/// error   none; NaN where a value is
+double statistic(const Comparison& comparison, const Samples& samples);
+
+/// Its standard error over the repeats, by leaving out one repeat at a time (jackknife); nothing for medians and for a
+/// mean difference in standard errors, which judges itself.
+std::optional<double> standard_error(const Comparison& comparison, const Samples& samples);
+
+}  // namespace mote::reproduce

@@ -1,0 +1,77 @@
+// What comparisons compute, against numbers worked out by hand and a law of large numbers.
+
+#include "mote/app/reproduce/statistics.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mote/base/numbers.hpp"
+
+namespace mote::reproduce {
+namespace {
+
+using Kind = Comparison::Kind;
+using Unit = Comparison::Unit;
+
+Comparison asking(Kind kind) {
+  Comparison c;
+  c.kind = kind;
+  return c;
+}
+
+Samples singles(const std::vector<double>& first, const std::vector<double>& second = {}) {
+  Samples samples;
+  for (const auto& values : {first, second}) {
+    if (values.empty()) continue;
+    auto& run = samples.values.emplace_back();
+    for (const double v : values) run.push_back({v});
+  }
+  return samples;
+}
+
+TEST(Statistics, MeansMediansAndRatios) {
+  Comparison c = asking(Kind::kRmse);
+  EXPECT_DOUBLE_EQ(statistic(c, singles({1, 2, 6})), 3);
+  EXPECT_DOUBLE_EQ(statistic(c, singles({1, 2, 6}, {2, 2, 2})), 1.5);
+  c.median = true;
+  EXPECT_DOUBLE_EQ(statistic(c, singles({6, 1, 2})), 2);
+  EXPECT_DOUBLE_EQ(statistic(c, singles({6, 1, 2, 4})), 3);
+  EXPECT_FALSE(standard_error(c, singles({6, 1, 2})).has_value());
+}
+
+TEST(Statistics, SpreadsAndRoots) {
+  EXPECT_DOUBLE_EQ(statistic(asking(Kind::kEvidenceSpread), singles({-1, 1, 3})), 2);
+  EXPECT_DOUBLE_EQ(statistic(asking(Kind::kEvidenceSpread), singles({-1, 1, 3}, {0, 1, 2})), 2);
+  EXPECT_DOUBLE_EQ(statistic(asking(Kind::kNormalisedError), singles({1, 7})), 2);
+  Samples two_times;
+  two_times.values = {{{0, 5}, {2, 5}}};  // variances 2 and 0
+  EXPECT_DOUBLE_EQ(statistic(asking(Kind::kMeanSpread), two_times), 1);
+}
+
+TEST(Statistics, MeanDifferencesInTheirUnits) {
+  Samples samples;
+  samples.values = {{{0, 3}, {2, 5}}, {{3, 8}, {5, 10}}};  // means 1, 4 against 4, 9; every variance 2
+  samples.sds = {{1, 4}, {3, 6}};                          // means 2, 5
+  Comparison c = asking(Kind::kMeanDifference);
+  c.unit = Unit::kAbsolute;
+  EXPECT_DOUBLE_EQ(statistic(c, samples), std::sqrt((9.0 + 25.0) / 2));
+  c.unit = Unit::kPosteriorSd;
+  EXPECT_DOUBLE_EQ(statistic(c, samples), std::sqrt((2.25 + 1.0) / 2));
+  c.unit = Unit::kStandardError;
+  EXPECT_DOUBLE_EQ(statistic(c, samples), std::sqrt((9.0 + 25.0) / (4 * 2.0 / 2)));
+}
+
+// of a mean, the jackknife's standard error is the textbook's
+TEST(Statistics, TheStandardErrorOfAMeanIsTheTextbooks) {
+  const double textbook = std::sqrt((9.0 + 1.0 + 4.0 + 4.0) / 3.0 / 4.0);
+  EXPECT_NEAR(standard_error(asking(Kind::kRmse), singles({0, 2, 5, 5})).value(), textbook, 1e-12);
+  // a ratio that is the same in every repeat is certain
+  EXPECT_NEAR(standard_error(asking(Kind::kRmse), singles({2, 4, 6}, {1, 2, 3})).value(), 0, 1e-12);
+}
+
+TEST(Statistics, NoNumberStaysNoNumber) {
+  EXPECT_TRUE(std::isnan(statistic(asking(Kind::kRmse), singles({1, kNaN}))));
+  EXPECT_TRUE(std::isnan(statistic(asking(Kind::kEvidenceSpread), singles({1, -kInfinity}))));
+}
+
+}  // namespace
+}  // namespace mote::reproduce
