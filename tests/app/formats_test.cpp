@@ -1,13 +1,14 @@
-// Files as the fixed doors say, and the memory a run may take.
+// Files and help as the fixed doors say.
 
 #include <cmath>
 #include <set>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sys/resource.h>
 
-#include "mote/base/numbers.hpp"
+#include "mote/app/catalogue/catalogue.hpp"
+#include "mote/app/commands/command.hpp"
+#include "mote/app/files/table.hpp"
 #include "tests/app/program.hpp"
 
 namespace mote::testing {
@@ -82,17 +83,76 @@ TEST(Summary, HasTheKeysOfTheDoor) {
   EXPECT_NE(scratch.read("r.html").find("run bearings"), std::string::npos) << "the command that makes it again";
 }
 
-TEST(Simulation, RoundTripsBitForBit) {
+TEST(Summary, NamesNothingThatIsNotThere) {
   const Scratch scratch;
-  ASSERT_EQ(scratch
-                .shell("mote simulate doa --columns 3 --steps 5 --seed 9 --out a.csv --truth t.csv && "
-                       "mote simulate doa --columns 3 --steps 5 --seed 9 --out b.csv")
-                .code,
-            0);
+  ASSERT_EQ(
+      scratch.shell("mote simulate ungm --steps 5 --out d.csv && mote run ungm --data d.csv --summary s.json").code, 0);
+  const Json summary = Json::parse(scratch.read("s.json"));
+  std::set<std::string> keys;
+  for (const auto& [key, value] : summary.items()) keys.insert(key);
+  EXPECT_EQ(keys,
+            (std::set<std::string>{"model", "filter", "engine", "particles", "seed", "steps", "predicted_steps",
+                                   "log_evidence", "wall_seconds", "ns_per_particle_step", "mean_ess", "collapses"}));
+}
+
+// Even after a collapse, whose evidence is -inf, the summary is JSON.
+TEST(Summary, IsJsonAfterACollapse) {
+  const Scratch scratch;
+  scratch.write("d.csv", "t,y\n1,1e300\n2,1000\n");
+  ASSERT_EQ(scratch.shell("mote run local-level --data d.csv --on-collapse keep --summary s.json").code, 0);
+  const Json summary = Json::parse(scratch.read("s.json"));
+  EXPECT_TRUE(summary["log_evidence"].is_null());
+  EXPECT_EQ(summary["collapses"], 1);
+}
+
+TEST(Estimates, HaveTheColumnsOfTheDoor) {
+  const Scratch scratch;
+  ASSERT_EQ(scratch.shell("mote simulate doa --columns 2 --steps 3 --out d.csv").code, 0);
+  const std::string states = "t,theta_mean,theta_sd,q_mean,q_sd,phi_mean,phi_sd,ess,log_evidence";
+  const std::map<std::string, std::string> wanted{{"sisr", states + "\n"},
+                                                  {"distributed --groups 2", states + "\n"},
+                                                  {"imh", states + ",acceptance\n"},
+                                                  {"auxiliary", states + ",acceptance\n"},
+                                                  {"imh --estimate 'q0.9(theta)' --estimate 'P(q<0)' --estimate phi",
+                                                   states + ",acceptance,q0.9(theta),P(q<0),phi\n"},
+                                                  {"sisr --estimate 'sd(q)'", states + ",sd(q)\n"}};
+  for (const auto& [options, header] : wanted) {
+    const Ended ended = scratch.shell("mote run doa --data d.csv --out - --filter " + options);
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_EQ(ended.out.substr(0, ended.out.find('\n') + 1), header) << options;
+    EXPECT_EQ(rows_of(ended.out).size(), 4U);
+  }
+}
+
+TEST(Simulation, GivesTheSameBytesForTheSameSeed) {
+  const Scratch scratch;
+  const std::string doa = "mote simulate doa --columns 3 --steps 5 --seed 9 --out ";
+  ASSERT_EQ(scratch.shell(doa + "a.csv --truth t.csv && " + doa + "b.csv && " + doa + "c.csv --seed 10").code, 0);
   EXPECT_EQ(scratch.read("a.csv"), scratch.read("b.csv"));
+  EXPECT_NE(scratch.read("a.csv"), scratch.read("c.csv"));
   EXPECT_EQ(rows_of(scratch.read("a.csv"))[0], (std::vector<std::string>{"t", "doa1", "doa2", "doa3"}));
   EXPECT_EQ(rows_of(scratch.read("t.csv"))[0], (std::vector<std::string>{"t", "theta", "q", "phi"}));
   EXPECT_EQ(rows_of(scratch.read("a.csv")).size(), 6U);
+}
+
+// A recording that is read and written again is the same file: text loses no bit of a number.
+TEST(Simulation, RoundTripsBitForBit) {
+  const Scratch scratch;
+  for (const CatalogueEntry& entry : catalogue()) {
+    if (entry.name == "linear-gaussian") continue;
+    ASSERT_EQ(scratch.shell("mote simulate " + entry.name + " --steps 40 --seed 3 --out d.csv --truth t.csv").code, 0);
+    const auto model = entry.make(Settings("test", {}), std::vector<std::string>{"t", "doa1"});
+    const Simulation simulated = model->simulate(40, 3);
+    const Table data = read_table(scratch.file("d.csv"));
+    const Table truth = read_table(scratch.file("t.csv"));
+    ASSERT_EQ(data.lines.size(), 40U);
+    for (std::size_t k = 0; k < 40; ++k) {
+      for (std::size_t j = 0; j < simulated.rows[k].values.size(); ++j)
+        EXPECT_EQ(number_field(data, data.lines[k], j + 1), simulated.rows[k].values[j]) << entry.name;
+      for (std::size_t d = 0; d < simulated.states[k].size(); ++d)
+        EXPECT_EQ(number_field(truth, truth.lines[k], d + 1), simulated.states[k][d]) << entry.name;
+    }
+  }
 }
 
 TEST(Models, AreTheCatalogueOfTheDesign) {
@@ -138,51 +198,55 @@ TEST(Models, AreTheCatalogueOfTheDesign) {
   EXPECT_EQ(seen, (std::set<std::string>{"ungm", "bearings", "doa", "local-level", "linear-gaussian"}));
 }
 
+TEST(Models, AreShownAsTextToo) {
+  const Scratch scratch;
+  for (const Json& model : Json::parse(scratch.shell("mote models --json").out)) {
+    const Ended shown = scratch.shell("mote models " + model["name"].get<std::string>());
+    EXPECT_EQ(shown.code, 0);
+    for (const Json& p : model["parameters"])
+      EXPECT_NE(shown.out.find("  " + p["name"].get<std::string>() + " "), std::string::npos) << p["name"];
+    for (const Json& s : model["states"]) EXPECT_NE(shown.out.find(s["name"].get<std::string>()), std::string::npos);
+    const Json alone = Json::parse(scratch.shell("mote models " + model["name"].get<std::string>() + " --json").out);
+    EXPECT_EQ(alone, model);
+  }
+}
+
+// Every option says its default, that it must be given, or that this version does not have it.
 TEST(Help, ShowsEveryOptionWithItsDefault) {
   const Scratch scratch;
-  const Ended help = scratch.shell("mote run --help");
-  EXPECT_EQ(help.code, 0);
-  for (const std::string option :
-       {"--data",           "--truth",     "--out",     "--summary",     "--report",         "--filter",
-        "--particles",      "--seed",      "--set",     "--resampler",   "--ess-threshold",  "--burn-in",
-        "--draws",          "--chains",    "--parents", "--chain-start", "--on-collapse",    "--engine",
-        "--threads",        "--precision", "--groups",  "--exchange",    "--exchange-count", "--estimate",
-        "--dump-particles", "--improved"})
-    EXPECT_NE(help.out.find(option), std::string::npos) << option;
-  EXPECT_NE(help.out.find("[1000]"), std::string::npos);
-  EXPECT_EQ(scratch.shell("mote --version").code, 0);
+  for (const Command& command : {models_command(), simulate_command(), run_command(), reproduce_command()}) {
+    const Ended help = scratch.shell("mote " + command.name + " --help");
+    EXPECT_EQ(help.code, 0);
+    EXPECT_EQ(help.err, "");
+    for (const OptionSpec& option : command.options) {
+      const std::size_t start = help.out.find("\n  " + option.flags);
+      ASSERT_NE(start, std::string::npos) << option.flags;
+      const std::string line = help.out.substr(start + 1, help.out.find('\n', start + 1) - start);
+      const bool told = option.value.empty() || line.find('[') != std::string::npos ||
+                        line.find("must be given") != std::string::npos ||
+                        line.find("not in this version") != std::string::npos;
+      EXPECT_TRUE(told || command.name == "reproduce") << line;
+      if (!option.fallback.empty()) {
+        EXPECT_NE(line.find("[" + option.fallback + "]"), std::string::npos) << line;
+      }
+    }
+  }
 }
 
-/// Largest resident memory of a child that runs the line, bytes; other children of this process must be smaller.
-double peak_of(const Scratch& scratch, const std::string& line) {
-  const Ended ended = scratch.shell(
-      "/usr/bin/env python3 -c 'import resource,subprocess,sys; code=subprocess.call(sys.argv[1:]); "
-      "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss); sys.exit(code)' '" MOTE_PROGRAM "' " +
-      line + " | tail -1");
-  return ended.code == 0 ? std::stod(ended.out) * 1024 : kNaN;
-}
-
-// claim    peak memory of a run is at most 64 bytes x N x states + 64 MB
-// referee  the operating system's account of the child
-TEST(Memory, StaysWithinItsBound) {
+TEST(Help, NamesTheOptionsOfTheDoor) {
   const Scratch scratch;
-  ASSERT_EQ(
-      scratch.shell("mote simulate ungm --steps 3 --out u.csv && mote simulate bearings --steps 3 --out b.csv").code,
-      0);
-  const auto expect_within = [&](const std::string& model, const std::string& options, double n, double states) {
-    const double peak =
-        peak_of(scratch, "run " + model + " -n " + std::to_string(static_cast<long>(n)) + " " + options);
-    EXPECT_LE(peak, 64 * n * states + 64e6) << model << " " << options << ": " << peak / n << " bytes a particle";
-  };
-  for (const std::string scheme :
-       {"systematic", "stratified", "multinomial", "residual", "roulette", "alias", "metropolis", "rejection"})
-    expect_within("ungm --data u.csv", "--resampler " + scheme, 1e6, 1);
-  for (const std::string filter :
-       {"imh", "imh --improved", "auxiliary --parent-weights lookahead", "distributed --groups 8 --exchange append",
-        "sisr --precision float", "sisr --estimate q0.5\\(x\\)"})
-    expect_within("ungm --data u.csv", "--filter " + filter, 1e6, 1);
-  expect_within("bearings --data b.csv", "", 5e5, 4);
-  expect_within("bearings --data b.csv", "--filter imh", 5e5, 4);
+  const std::string help = scratch.shell("mote run --help").out;
+  for (const std::string option :
+       {"--data FILE",       "--truth FILE",         "--out FILE",         "--summary FILE",   "--report FILE",
+        "--filter NAME",     "-n,--particles N",     "--seed S",           "--set NAME=VALUE", "--resampler NAME",
+        "--ess-threshold X", "--burn-in NB",         "--draws Q",          "--chains P",       "--parents HOW",
+        "--chain-start HOW", "--on-collapse WHAT",   "--engine NAME",      "--threads K",      "--precision TYPE",
+        "--groups K",        "--exchange HOW",       "--exchange-count M", "--proposers R",    "--weighers R",
+        "--checkpoint FILE", "--checkpoint-every S", "--budget TIME",      "--estimate F",     "--dump-particles FILE",
+        "--improved"})
+    EXPECT_NE(help.find("\n  " + option), std::string::npos) << option;
+  EXPECT_EQ(scratch.shell("mote --help").code, 0);
+  EXPECT_EQ(scratch.shell("mote --version").code, 0);
 }
 
 }  // namespace

@@ -1,17 +1,28 @@
 #pragma once
 /// Runs the built program as a user does: a child process in a folder of its own.
 
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
+#include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 namespace mote::testing {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kMemoryIsMoteOwn = false;  // the sanitizers' shadow is many times the program's
+#else
+inline constexpr bool kMemoryIsMoteOwn = true;
+#endif
 
 /// What a run of the program left.
 struct Ended {
@@ -70,6 +81,50 @@ class Scratch {
 
  private:
   std::filesystem::path path_;
+};
+
+/// The program as a child that is watched while it runs; standard error goes to the file "err" of the folder.
+class Child {
+ public:
+  Child(const Scratch& scratch, std::vector<std::string> words) : scratch_(scratch), id_(fork()) {
+    if (id_ < 0) throw std::runtime_error("fork failed");
+    if (id_ > 0) return;
+    if (chdir(scratch.path().c_str()) != 0) _exit(99);
+    dup2(open("/dev/null", O_RDWR | O_CLOEXEC), STDOUT_FILENO);
+    dup2(open("err", O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600), STDERR_FILENO);
+    words.insert(words.begin(), MOTE_PROGRAM);
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    execv(MOTE_PROGRAM, pointers.data());
+    _exit(99);
+  }
+
+  /// Nothing when there is no such child: kill(-1) would mean every process.
+  void signal(int number) const {
+    if (id_ > 0) kill(id_, number);
+  }
+
+  /// Waits for the end: exit code (128 + signal when one ended it), standard error, largest resident memory in bytes.
+  struct End {
+    int code;
+    std::string err;
+    double peak_bytes;
+  };
+  End end() {
+    int status = 0;
+    rusage usage{};
+    wait4(id_, &status, 0, &usage);
+    id_ = -1;
+    End end{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), scratch_.read("err"),
+            static_cast<double>(usage.ru_maxrss) * 1024};
+    std::filesystem::remove(scratch_.path() / "err");
+    return end;
+  }
+
+ private:
+  const Scratch& scratch_;
+  pid_t id_;
 };
 
 }  // namespace mote::testing

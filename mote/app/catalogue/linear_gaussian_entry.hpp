@@ -29,7 +29,9 @@ inline CatalogueEntry linear_gaussian_entry() {
     try {
       return wrapped(LinearGaussian(read_linear_gaussian(*file)));
     } catch (const std::invalid_argument& wrong) {
-      throw Refusal(ExitCode::kBadData, *file + ": " + wrong.what() + ".");
+      throw Refusal(ExitCode::kBadData,
+                    {*file, "", "the matrices of a linear Gaussian model", std::string("others: ") + wrong.what(),
+                     "F, Q and covariance are n x n, H is m x n, R is m x m, mean has n numbers."});
     }
   };
   made.example_columns = {"y"};

@@ -25,9 +25,10 @@ void check_memory(const Plan& plan, std::size_t dimensions, const std::string& w
 
 std::string note_of_unused(const Table& table, const std::vector<std::string>& read) {
   const auto unused = unused_columns(table, read);
-  return unused.empty() ? ""
-                        : fmt::format("{}: note: nothing reads the column{} {}.", table.path,
-                                      unused.size() > 1 ? "s" : "", quoted(fmt::format("{}", fmt::join(unused, ","))));
+  return unused.empty()
+             ? ""
+             : fmt::format("{}: note: nothing reads the column{} {}.", table.path, unused.size() > 1 ? "s" : "",
+                           in_quotes(fmt::format("{}", fmt::join(unused, ","))));
 }
 
 }  // namespace

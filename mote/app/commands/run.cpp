@@ -44,13 +44,14 @@ void protect_inputs(OutputSet& outputs, const Arguments& arguments) {
 
 ExitCode run_run(const Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
+  const std::atomic<bool>& stop = stop_flag();
   const Plan plan = plan_from(arguments);
   Job job = load_job(arguments.text("MODEL"),
                      arguments.required("--data", "a CSV file with the recording", "Pass --data obs.csv."),
                      arguments.text("--truth"), arguments.list("--set"), arguments.where());
   job.command = arguments.command_line();
   RunRequest request = request_for(job, arguments.list("--estimate"), arguments.where());
-  request.stop = &stop_flag();
+  request.stop = &stop;
   OutputSet outputs;
   protect_inputs(outputs, arguments);
   Output* estimates = outputs.open(arguments.text("--out"));

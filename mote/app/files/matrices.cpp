@@ -108,7 +108,7 @@ class Reader {
         throw Refusal(
             ExitCode::kBadData,
             {path_, "\"" + key + "\"", "different names of letters, digits and _ with a letter first, none of them t",
-             value.dump(), "Names are written [\"x\", \"v\"]."});
+             value.dump(), R"(Names are written ["x", "v"].)"});
       out.push_back(name);
     }
     return out;

@@ -8,6 +8,7 @@
 #include "mote/app/files/matrices.hpp"
 #include "mote/base/refusal.hpp"
 
+// NOLINTNEXTLINE(readability-identifier-naming): the name is libFuzzer's
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   for (const std::string path : {"fuzz.toml", "fuzz.json"}) {

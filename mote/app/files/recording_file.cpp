@@ -24,7 +24,7 @@ std::vector<std::optional<std::size_t>> places_of(const Table& table, const std:
     if (!places.back() && !column.input)
       throw Refusal(ExitCode::kBadData, {fmt::format("{}:{}", table.path, table.header_line), "header",
                                          fmt::format("a column \"{}\" for {}", column.name, model),
-                                         quoted(listed(table.header)), "See mote models " + model + "."});
+                                         in_quotes(listed(table.header)), "See mote models " + model + "."});
   }
   return places;
 }
@@ -94,9 +94,10 @@ Truth truth_from(const Table& table, const std::vector<Quantity>& states) {
     names.push_back(state.name);
   }
   if (std::none_of(truth.known.begin(), truth.known.end(), [](bool k) { return k; }))
-    throw Refusal(ExitCode::kBadData, {fmt::format("{}:{}", table.path, table.header_line), "header",
-                                       "at least one state of the model (" + listed(names) + ")",
-                                       quoted(listed(table.header)), "Name the columns of the truth like the states."});
+    throw Refusal(ExitCode::kBadData,
+                  {fmt::format("{}:{}", table.path, table.header_line), "header",
+                   "at least one state of the model (" + listed(names) + ")", in_quotes(listed(table.header)),
+                   "Name the columns of the truth like the states."});
   Step before = 0;
   for (const auto& line : table.lines) {
     const Step t = time_field(table, line);

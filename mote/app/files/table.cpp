@@ -31,10 +31,10 @@ void check_header(const Table& table) {
         table.header.begin() + static_cast<std::ptrdiff_t>(i))
       throw Refusal(ExitCode::kBadData,
                     {fmt::format("{}:{}", table.path, table.header_line), "header", "every column once",
-                     fmt::format("{} twice", quoted(table.header[i])), "Rename one of them."});
+                     fmt::format("{} twice", in_quotes(table.header[i])), "Rename one of them."});
   if (table.header.front() != "t")
     throw Refusal(ExitCode::kBadData, {fmt::format("{}:{}", table.path, table.header_line), "first column", "\"t\"",
-                                       quoted(table.header.front()),
+                                       in_quotes(table.header.front()),
                                        table.header.front().find_first_of(";\t") == std::string::npos
                                            ? "A data file starts with a header line whose first column is t."
                                            : "Separate the columns by commas."});
@@ -53,8 +53,8 @@ std::string Table::where(const Line& line) const { return fmt::format("{}:{}", p
 Table parse_table(std::string path, std::string text) {
   Table table;
   table.path = std::move(path);
-  table.text = std::move(text);
-  std::string_view rest = table.text;
+  table.text = std::make_shared<const std::string>(std::move(text));
+  std::string_view rest = *table.text;
   if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);
   bool have_header = false;
   for (std::size_t number = 1; !rest.empty(); ++number) {
@@ -95,7 +95,7 @@ int time_field(const Table& table, const Table::Line& line) {
   if (!t || *t < 1 || *t > kLastTime)
     throw Refusal(ExitCode::kBadData,
                   {table.where(line), "column \"t\"", fmt::format("an integer from 1 to {}", kLastTime),
-                   quoted(line.fields.front()), "Number the steps from 1."});
+                   in_quotes(line.fields.front()), "Number the steps from 1."});
   return static_cast<int>(*t);
 }
 
@@ -106,7 +106,7 @@ double number_field(const Table& table, const Table::Line& line, std::size_t col
   if (!value || std::isinf(*value))
     throw Refusal(ExitCode::kBadData,
                   {table.where(line), fmt::format("column \"{}\"", table.header[column]),
-                   "a finite number or an empty field", quoted(field), "Write nan for a missed observation."});
+                   "a finite number or an empty field", in_quotes(field), "Write nan for a missed observation."});
   return *value;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// CSV with a header: the only tabular input. LF or CRLF, a byte-order mark, and blank lines are accepted.
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,14 +9,14 @@
 
 namespace mote {
 
-/// A table as read: fields are text that lives in the table.
+/// A table as read: fields are views into its text.
 struct Table {
   struct Line {
     std::size_t number;  ///< in the file, from 1
     std::vector<std::string_view> fields;
   };
   std::string path;
-  std::string text;
+  std::shared_ptr<const std::string> text;  ///< held apart, so that the fields stay where they are when a table moves
   std::size_t header_line = 1;
   std::vector<std::string> header;
   std::vector<Line> lines;

@@ -49,7 +49,8 @@ std::string read_text(const std::string& path) {
 }
 
 void refuse_other_than_ascii(const std::string& path, std::string_view text) {
-  const auto found = std::find_if(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) > 127; });
+  const auto* const found =
+      std::find_if(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) > 127; });
   if (found == text.end()) return;
   throw Refusal(ExitCode::kBadData, {line_of(path, text, found), "", "plain ASCII text", "another character",
                                      "Write names and comments without accents."});
@@ -61,7 +62,7 @@ std::string printable(std::string text) {
   return text;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t kMost = 60;
   return "\"" + printable(std::string(text.substr(0, kMost))) + (text.size() > kMost ? "...\"" : "\"");
 }

@@ -22,7 +22,7 @@ void refuse_other_than_ascii(const std::string& path, std::string_view text);
 std::string printable(std::string text);
 
 /// A text as a message shows it: in quotes, not too long, without control characters.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 /// The number that a text is, whole; "nan" gives NaN. Nothing when it is no number.
 std::optional<double> number_in(std::string_view text);
