@@ -18,13 +18,15 @@ using namespace reproduce;
 
 const std::vector<std::string> kPapers{"imh-hw", "fpga", "mixed", "imh-opt", "ppf"};
 
-/// The folder of the papers: beside the build tree's folder, or installed beside the program's.
+/// The folder of the papers: beside the build tree's folder (build/, or build/asan/ of a preset), or installed beside
+/// the program's.
 fs::path papers_folder(const std::string& where) {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
   const fs::path beside = (program / "../papers").lexically_normal();
   const fs::path installed = (program / "../share/mote/papers").lexically_normal();
-  for (const fs::path& folder : {beside, installed})
+  const fs::path beside_preset = (program / "../../papers").lexically_normal();
+  for (const fs::path& folder : {beside, installed, beside_preset})
     if (fs::is_directory(folder, error)) return folder;
   throw Refusal(ExitCode::kBadData,
                 {where, "", fmt::format("the papers' items in {} or {}", beside.string(), installed.string()),
