@@ -48,9 +48,9 @@ RunRecord run(Filter& filter, const Plan& plan, const Recording& recording, cons
     if (report.collapsed && plan.on_collapse == OnCollapse::kStop)
       throw Refusal(
           ExitCode::kCollapsed,
-          fmt::format("mote run: t = {}: the filter collapsed: every one of {} particles has weight zero for this "
+          fmt::format("{}: t = {}: the filter collapsed: every one of {} particles has weight zero for this "
                       "step's observation. Pass more --particles, a wider model, or --on-collapse keep or reset.",
-                      t, plan.particles));
+                      request.where, t, plan.particles));
     record.rows.push_back(estimated(t, report, filter.weighted(), request, scratch));
     record.step_seconds += watch.seconds();
     if (request.dump) request.dump(t, filter.weighted());

@@ -11,6 +11,7 @@ namespace mote {
 
 /// What a run is told besides its filter and data.
 struct RunRequest {
+  std::string where = "run";  ///< opens a refusal: the command, or the item that asked
   std::vector<Quantity> states;
   std::vector<ValueSource> sources;
   std::vector<Estimand> estimands;

@@ -9,171 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include "mote/model/law_numbers.hpp"
 #include "mote/model/model.hpp"
 
 namespace mote::laws {
-
-/// A dataflow graph recorded by running a model's lines on Node: operations in order, evaluated later.
-class Tape {
- public:
-  using Operation = double (*)(double, double, double);
-  int record(Operation operation, int a = -1, int b = -1, int c = -1, double value = 0) {
-    steps_.push_back({operation, a, b, c, value});
-    return static_cast<int>(steps_.size()) - 1;
-  }
-  int input() { return record(nullptr); }
-  std::size_t size() const { return steps_.size(); }
-
-  /// The value of every node, with the inputs (in order of their creation) set to `inputs`.
-  std::vector<double> evaluate(const std::vector<double>& inputs) const {
-    std::vector<double> values;
-    std::size_t next_input = 0;
-    for (const auto& step : steps_) {
-      const auto at = [&](int i) { return i < 0 ? step.value : values[static_cast<std::size_t>(i)]; };
-      values.push_back(step.operation == nullptr ? inputs.at(next_input++)
-                                                 : step.operation(at(step.a), at(step.b), at(step.c)));
-    }
-    return values;
-  }
-  static Tape*& current() {
-    static Tape* tape = nullptr;
-    return tape;
-  }
-
- private:
-  struct Entry {
-    Operation operation;
-    int a, b, c;
-    double value;
-  };
-  std::vector<Entry> steps_;
-};
-
-/// A number that records what is done with it.
-struct Node {
-  int id;
-  Node() : id(-1) {}
-  explicit Node(double constant)
-      : id(record([](double value, double, double) { return value; }, -1, -1, -1, constant)) {}
-  static int record(Tape::Operation f, int a, int b = -1, int c = -1, double value = 0) {
-    return Tape::current()->record(f, a, b, c, value);
-  }
-  static Node make(Tape::Operation f, Node a, Node b = {}, Node c = {}) {
-    Node node;
-    node.id = record(f, a.id, b.id, c.id);
-    return node;
-  }
-  friend Node operator+(Node a, Node b) {
-    return make([](double x, double y, double) { return x + y; }, a, b);
-  }
-  friend Node operator-(Node a, Node b) {
-    return make([](double x, double y, double) { return x - y; }, a, b);
-  }
-  friend Node operator*(Node a, Node b) {
-    return make([](double x, double y, double) { return x * y; }, a, b);
-  }
-  friend Node operator/(Node a, Node b) {
-    return make([](double x, double y, double) { return x / y; }, a, b);
-  }
-  friend Node operator-(Node a) {
-    return make([](double x, double, double) { return -x; }, a);
-  }
-  friend Node less(Node a, Node b) {
-    return make([](double x, double y, double) { return x < y ? 1.0 : 0.0; }, a, b);
-  }
-  friend Node select(Node c, Node a, Node b) {
-    return make([](double k, double x, double y) { return k != 0 ? x : y; }, c, a, b);
-  }
-  friend Node atan2(Node a, Node b) {
-    return make([](double x, double y, double) { return std::atan2(x, y); }, a, b);
-  }
-#define MOTE_UNARY(f)                                                   \
-  friend Node f(Node a) {                                               \
-    return make([](double x, double, double) { return std::f(x); }, a); \
-  }
-  MOTE_UNARY(sqrt)
-  MOTE_UNARY(exp)
-  MOTE_UNARY(log)
-  MOTE_UNARY(sin)
-  MOTE_UNARY(cos)
-  MOTE_UNARY(tan)
-  MOTE_UNARY(atan)
-  MOTE_UNARY(abs)
-  MOTE_UNARY(floor)
-#undef MOTE_UNARY
-};
-
-/// Four numbers at once, as a vector engine holds them.
-struct Pack {
-  static constexpr std::size_t kLanes = 4;
-  std::array<double, kLanes> v{};
-  Pack() = default;
-  explicit Pack(double all) { v.fill(all); }
-  template <class F, class... P>
-  static Pack map(F f, const P&... packs) {
-    Pack out;
-    for (std::size_t i = 0; i < kLanes; ++i) out.v[i] = f(packs.v[i]...);
-    return out;
-  }
-  friend Pack operator+(Pack a, Pack b) {
-    return map([](double x, double y) { return x + y; }, a, b);
-  }
-  friend Pack operator-(Pack a, Pack b) {
-    return map([](double x, double y) { return x - y; }, a, b);
-  }
-  friend Pack operator*(Pack a, Pack b) {
-    return map([](double x, double y) { return x * y; }, a, b);
-  }
-  friend Pack operator/(Pack a, Pack b) {
-    return map([](double x, double y) { return x / y; }, a, b);
-  }
-  friend Pack operator-(Pack a) {
-    return map([](double x) { return -x; }, a);
-  }
-  friend Pack less(Pack a, Pack b) {
-    return map([](double x, double y) { return x < y ? 1.0 : 0.0; }, a, b);
-  }
-  friend Pack select(Pack c, Pack a, Pack b) {
-    return map([](double k, double x, double y) { return k != 0 ? x : y; }, c, a, b);
-  }
-  friend Pack atan2(Pack a, Pack b) {
-    return map([](double x, double y) { return std::atan2(x, y); }, a, b);
-  }
-#define MOTE_UNARY(f)                                  \
-  friend Pack f(Pack a) {                              \
-    return map([](double x) { return std::f(x); }, a); \
-  }
-  MOTE_UNARY(sqrt)
-  MOTE_UNARY(exp)
-  MOTE_UNARY(log)
-  MOTE_UNARY(sin)
-  MOTE_UNARY(cos)
-  MOTE_UNARY(tan)
-  MOTE_UNARY(atan)
-  MOTE_UNARY(abs)
-  MOTE_UNARY(floor)
-#undef MOTE_UNARY
-};
-
-/// Draws that are read from lists, so that every number type gets the same ones; counts what is taken.
-template <class S>
-struct ListedDraw {
-  std::vector<S> normals, uniforms;
-  std::size_t taken_normals = 0, taken_uniforms = 0;
-  S normal() { return normals.at(taken_normals++); }
-  S uniform() { return uniforms.at(taken_uniforms++); }
-};
-
-inline constexpr std::size_t kListed = 64;
-
-inline ListedDraw<double> listed(Draw<double>& source) {
-  ListedDraw<double> draw;
-  for (std::size_t i = 0; i < kListed; ++i) {
-    draw.normals.push_back(source.normal());
-    draw.uniforms.push_back(source.uniform());
-  }
-  return draw;
-}
 
 /// A state the model reaches by itself after `steps` steps, and a row that it could observe there.
 template <class M>
@@ -321,6 +160,14 @@ double z_of_mean_one(int n, F f) {
   return (mean - 1) / std::sqrt((squares / n - mean * mean) / n + 1e-300);
 }
 
+/// The ratio's mean is 1, and the twin, the ratio raised to the power 0.7, must not have it.
+template <class LogRatio>
+void expect_density_ratio(LogRatio log_ratio) {
+  const auto z = [&](double power) { return z_of_mean_one(40000, [&] { return std::exp(power * log_ratio()); }); };
+  EXPECT_LT(std::abs(z(1.0)), 4.89);
+  EXPECT_GT(std::abs(z(0.7)), 4.89) << "the twin must fail";
+}
+
 /// A state near `from` whose image under the model lies about `shift` standard deviations of one step away.
 template <class M, class Image>
 StateOf<M, double> nearby(const StateOf<M, double>& from, const std::vector<double>& spread, double shift,
@@ -363,15 +210,10 @@ void expect_transition_density(const M& model) {
     ListedDraw<double> still{std::vector<double>(kListed, 0.0), std::vector<double>(kListed, 0.5)};
     return model.template next<double>(t, b, still);
   });
-  const auto ratio = [&](double power) {
-    return z_of_mean_one(40000, [&] {
-      const auto x = model.template next<double>(t, at.before, draw);
-      return std::exp(power * (model.template log_transition<double>(t, x, other) -
-                               model.template log_transition<double>(t, x, at.before)));
-    });
-  };
-  EXPECT_LT(std::abs(ratio(1.0)), 4.89);
-  EXPECT_GT(std::abs(ratio(0.7)), 4.89) << "the twin must fail";
+  expect_density_ratio([&] {
+    const auto x = model.template next<double>(t, at.before, draw);
+    return model.template log_transition<double>(t, x, other) - model.template log_transition<double>(t, x, at.before);
+  });
 }
 
 // claim    log_likelihood is the density of observe():  E[ p(y | x') / p(y | x) ] = 1 for y drawn from x
@@ -395,13 +237,7 @@ void expect_observation_density(const M& model) {
       squares += std::pow(log_ratio(other, model.template observe<double>(4, at.x, inputs, draw)), 2) / 200;
     if (squares < 0.6) break;
   }
-  const auto ratio = [&](double power) {
-    return z_of_mean_one(40000, [&] {
-      return std::exp(power * log_ratio(other, model.template observe<double>(4, at.x, inputs, draw)));
-    });
-  };
-  EXPECT_LT(std::abs(ratio(1.0)), 4.89);
-  EXPECT_GT(std::abs(ratio(0.7)), 4.89) << "the twin must fail";
+  expect_density_ratio([&] { return log_ratio(other, model.template observe<double>(4, at.x, inputs, draw)); });
 }
 
 /// An empty field contributes nothing; a row of empty fields has likelihood one.

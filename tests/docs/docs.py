@@ -13,6 +13,7 @@ Conventions of the documents:
     ```cpp      with the first line `// example: NAME` is a whole program
     ```sh       with the first line `# run` is run by bash; `# run, exit 3` must end with that code
     ```text     right after either (blank lines between) holds lines that are printed in this order; `...` stands for anything
+                (elsewhere it is refused: nothing would check it)
     <!-- file: PATH -->     before a block: the block stands in that file, word for word
     <!-- parameters: NAME --> ... <!-- end -->    holds the generated table of a model
     (F7)        at the beginning of a line of a plain block in docs/filters.md is an equation; code cites "docs/filters.md (F7)"
@@ -128,8 +129,15 @@ def example(file, name, program):
         return judged(block, started([program], folder), 0)
 
 
+def unchecked(blocks):
+    """Shown output that follows no program and no command that is run: nothing would hold it to the truth."""
+    judged_blocks = [b.shown for b in blocks if b.shown and re.match(r"// example: \w+$|# run(?:, exit \d+)?$", b.first)]
+    return [f"{b.where}: shows output, but no program or command that is run stands right before it."
+            for b in blocks if b.language == "text" and not any(b is other for other in judged_blocks)]
+
+
 def run(file, mote, data=""):
-    faults = []
+    faults = unchecked(blocks_of(pathlib.Path(file)))
     with tempfile.TemporaryDirectory() as folder:
         programs = pathlib.Path(folder, ".programs")
         programs.mkdir()

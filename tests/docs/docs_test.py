@@ -55,6 +55,10 @@ class Docs(unittest.TestCase):
     def test_a_line_that_is_not_printed_is_caught(self):
         self.expect(self.run_document(RUN.replace("\none\n", "\ntwo\n")), 1, 'page.md:9: expected the printed line "two"')
 
+    def test_output_that_nothing_checks_is_caught(self):
+        self.expect(self.run_document(RUN.replace("\n\n```text", "\n\nIt prints:\n\n```text")), 1, "page.md:11: shows output, but")
+        self.expect(self.run_document("```sh\nmote hello\n```\n\n```text\nmote says bye\n```\n"), 1, "page.md:5: shows output, but")
+
     def test_lines_in_another_order_are_caught(self):
         self.expect(self.run_document(RUN.replace("one\ntook ... ms", "took ... ms\none")), 1, 'line "one"')
 

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "mote/app/files/text.hpp"
+#include "mote/app/terminal/shell.hpp"
 #include "mote/app/terminal/signals.hpp"
 #include "mote/app/terminal/suggestion.hpp"
 
@@ -24,21 +25,7 @@ std::string long_flag(const std::string& flags) { return flags.substr(flags.find
 /// The command line as a shell takes it again; the program by its name.
 std::string shell_line(int count, char** words) {
   std::string line = "mote";
-  for (int i = 1; i < count; ++i) {
-    const std::string word = words[i];
-    const bool plain =
-        !word.empty() &&
-        word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=./,:+%@") ==
-            std::string::npos;
-    line += ' ';
-    if (plain) {
-      line += word;
-      continue;
-    }
-    line += '\'';
-    for (const char c : word) line += c == '\'' ? "'\\''" : std::string(1, c);
-    line += '\'';
-  }
+  for (int i = 1; i < count; ++i) line += ' ' + shell_word(words[i]);
   return line;
 }
 

@@ -60,6 +60,7 @@ Job load_job(const std::string& model, const std::string& data_path, const std::
 
 RunRequest request_for(const Job& job, const std::vector<std::string>& estimates, const std::string& where) {
   RunRequest request;
+  request.where = where;
   request.states = job.model->states();
   request.sources = job.model->sources();
   for (std::string text : estimates) {

@@ -90,7 +90,7 @@ std::vector<OptionSpec> plan_options() {
       {"--burn-in", "NB", "0", "proposals before a chain is kept, per chain; auto = from mean and largest weight",
        chain},
       {"--chains", "P", "1", "chains, from 1 to N", chain},
-      {"--parents", "HOW", "iid", "how parents are chosen: iid, permuted or sweep", chain},
+      {"--parents", "HOW", "iid", "how parents are chosen: iid, permuted or sweep (biased at any N)", chain},
       {"--chain-start", "HOW", "first", "first proposal, or weighted = drawn in proportion to weight", chain},
       {"--parent-weights", "HOW", "uniform",
        "auxiliary: g(k) uniform, or lookahead = half by the likelihood of the moved parent", chain},

@@ -2,18 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "mote/app/terminal/shell.hpp"
+
 namespace mote::reproduce {
 namespace {
-
-constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=./,:+%@";
-
-/// A word as a shell takes it.
-std::string shell_word(const std::string& word) {
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  return quoted + "'";
-}
 
 std::string set_options(const std::vector<std::string>& settings) {
   std::string words;
