@@ -1,7 +1,7 @@
 // One chart as an ECharts option. Ranges and ticks are ours (they are known exactly); ECharts draws and zooms.
 import { tickLabel, ticks } from "./scale.js";
 
-export const margins = (width) => ({ left: width < 480 ? 62 : 70, right: 26, top: 12, bottom: 46 });
+export const margins = { left: 82, right: 26, top: 12, bottom: 46 };
 
 export const colourOf = (item, colours) =>
   item.truth ? colours.ink : colours.colours[item.colour % colours.colours.length];
@@ -160,12 +160,12 @@ export function option(chart, shown, full, window, [width, height], colours, too
     log: chart.log_y,
     whole: false,
     count: up,
-    gap: width < 480 ? 44 : 54,
+    gap: 64,
     place: "left",
   };
   return {
     animation: false,
-    grid: { ...margins(width), outerBoundsMode: "none", show: true, borderColor: colours.line, borderWidth: 1 },
+    grid: { ...margins, outerBoundsMode: "none", show: true, borderColor: colours.line, borderWidth: 1 },
     xAxis: axis(x),
     yAxis: axis(y),
     dataZoom: [zoom("x", "xAxisIndex", window.x), ...(chart.plane ? [zoom("y", "yAxisIndex", window.y)] : [])],

@@ -75,8 +75,10 @@ export class Plot {
   /** The size of the drawing area in pixels. */
   area() {
     const [width, height] = [this.canvas.getWidth(), this.canvas.getHeight()];
-    const m = margins(width);
-    return [Math.max(10, width - m.left - m.right), Math.max(10, height - m.top - m.bottom)];
+    return [
+      Math.max(10, width - margins.left - margins.right),
+      Math.max(10, height - margins.top - margins.bottom),
+    ];
   }
 
   /** Everything the chart has; with equal axes, widened to the shape of the area. */
@@ -194,7 +196,11 @@ export class Plot {
       return [Math.max(least, middle - half([low, high])), Math.min(most, middle + half([low, high]))];
     };
     const window = Object.fromEntries(Object.entries(now).map(([axis, range]) => [axis, resized(range, full[axis])]));
-    const whole = Object.entries(window).every(([axis, [low, high]]) => low <= full[axis][0] && high >= full[axis][1]);
+    // to 1e-4 of the range, as follow() has it: zooming in and out again may miss the ends by a rounding
+    const whole = Object.entries(window).every(([axis, [low, high]]) => {
+      const slack = 1e-4 * (full[axis][1] - full[axis][0]);
+      return low <= full[axis][0] + slack && high >= full[axis][1] - slack;
+    });
     this.zoomTo(whole ? null : window);
   }
 
