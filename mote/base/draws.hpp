@@ -139,6 +139,11 @@ struct Draws {
     return BlockDraws<R>({seed, step, purpose, static_cast<std::uint32_t>(index), stream});
   }
 
+  /// The first uniform number of a purpose: that of particle 0, without keying the other lanes.
+  double uniform(Purpose purpose) const {
+    return uniform_from_bits(keyed_generator({seed, step, purpose, 0, stream}, 0).next());
+  }
+
   /// Calls visit(i, draw) for each i in [first, last), block by block; `first` is a multiple of the block size.
   template <class R = double, class Visit>
   void for_each(Purpose purpose, std::size_t first, std::size_t last, Visit&& visit) const {

@@ -17,13 +17,13 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-EstimateRow estimated(Step t, const StepReport& report, const WeightedSet& set, const RunRequest& request,
+EstimateRow estimated(Step t, const StepReport& report, const Filter& filter, const RunRequest& request,
                       std::vector<double>& scratch) {
   EstimateRow row{t, {}, {}, report};
   for (std::size_t d = 0; d < request.states.size(); ++d)
-    row.states.push_back(component_moments(set, d, request.states[d].angle));
+    row.states.push_back(filter.moments(d, request.states[d].angle));
   for (const Estimand& estimand : request.estimands)
-    row.functions.push_back(evaluate(estimand, request.sources[estimand.source], set, scratch));
+    row.functions.push_back(evaluate(estimand, request.sources[estimand.source], filter.weighted(), scratch));
   return row;
 }
 
@@ -51,7 +51,7 @@ RunRecord run(Filter& filter, const Plan& plan, const Recording& recording, cons
           fmt::format("{}: t = {}: the filter collapsed: every one of {} particles has weight zero for this "
                       "step's observation. Pass more --particles, a wider model, or --on-collapse keep or reset.",
                       request.where, t, plan.particles));
-    record.rows.push_back(estimated(t, report, filter.weighted(), request, scratch));
+    record.rows.push_back(estimated(t, report, filter, request, scratch));
     record.step_seconds += watch.seconds();
     if (request.dump) request.dump(t, filter.weighted());
     Stopwatch selection;

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "mote/filter/particles.hpp"
+#include "mote/filter/estimate.hpp"
 #include "mote/model/model.hpp"
 
 namespace mote {
@@ -35,6 +35,8 @@ class Filter {
   virtual void select(Step t, StepReport& report) = 0;
   /// The weighted particles after predict() or update(), until select().
   virtual WeightedSet weighted() const = 0;
+  /// Mean and standard deviation of component d of that set; circular ones for an angle.
+  virtual Moments moments(std::size_t d, bool angle) const { return component_moments(weighted(), d, angle); }
 
  protected:
   Filter() = default;

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "mote/base/aligned.hpp"
 #include "mote/model/model.hpp"
 
 namespace mote {
@@ -16,16 +17,18 @@ using Index = std::uint32_t;
 inline constexpr std::size_t kMostParticles = std::size_t{1} << 28U;
 
 /// N particles of D components in the number type R: component d of particle i is at component(d)[i].
+///
+/// Columns are aligned and filled up to whole blocks of 1024, so that engines read and write them by whole vectors.
 template <class R>
 class Particles {
  public:
   Particles(std::size_t dimensions, std::size_t count)
-      : count_(count), components_(dimensions, std::vector<R>(count)) {}
+      : count_(count), components_(dimensions, AlignedVector<R>(whole_blocks(count))) {}
 
   std::size_t size() const { return count_; }
   std::size_t dimensions() const { return components_.size(); }
-  std::span<R> component(std::size_t d) { return components_[d]; }
-  std::span<const R> component(std::size_t d) const { return components_[d]; }
+  std::span<R> component(std::size_t d) { return {components_[d].data(), count_}; }
+  std::span<const R> component(std::size_t d) const { return {components_[d].data(), count_}; }
 
   template <class State>
   void read(std::size_t i, State& x) const {
@@ -54,12 +57,14 @@ class Particles {
   /// Makes room for (or drops to) `count` particles; those that stay keep their values.
   void resize(std::size_t count) {
     count_ = count;
-    for (auto& component : components_) component.resize(count);
+    for (auto& component : components_) component.resize(whole_blocks(count));
   }
 
  private:
+  static std::size_t whole_blocks(std::size_t count) { return (count + kBlock - 1) / kBlock * kBlock; }
+
   std::size_t count_;
-  std::vector<std::vector<R>> components_;
+  std::vector<AlignedVector<R>> components_;
   std::vector<R> scratch_;
 };
 

@@ -7,14 +7,31 @@
 
 namespace mote {
 
-/// log N(e; 0, variance).
+/// The normal density of one variance, its constants computed once.
 ///
-///   -e^2 / (2 variance) - log(2 pi variance) / 2
+///   log N(e; 0, variance) = -e^2 / (2 variance) - log(2 pi variance) / 2
 ///
 /// shape   variance > 0, the same for all particles
+///
+/// A log_likelihood that makes one before it asks whether a value was seen has its constants taken out of the loop over
+/// particles; behind a condition they are computed for every vector of particles.
+class NormalDensity {
+ public:
+  explicit NormalDensity(double variance) : scale_(-0.5 / variance), constant_(-0.5 * std::log(2 * kPi * variance)) {}
+
+  template <class S>
+  S log(const S& residual) const {
+    return residual * residual * S(scale_) + S(constant_);
+  }
+
+ private:
+  double scale_, constant_;
+};
+
+/// log N(e; 0, variance) for one use.
 template <class S>
 S normal_log_density(const S& residual, double variance) {
-  return residual * residual * S(-0.5 / variance) + S(-0.5 * std::log(2 * kPi * variance));
+  return NormalDensity(variance).log(residual);
 }
 
 /// Student's log density with `dof` degrees of freedom and a scale.

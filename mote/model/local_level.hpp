@@ -48,7 +48,8 @@ struct LocalLevel {
   }
   template <class S>
   S log_likelihood(Step, const State<S>& x, const Row<S>& y) const {
-    return y.seen(0) ? normal_log_density(y[0] - x[0], p.var_obs) : S(0);
+    const NormalDensity error(p.var_obs);
+    return y.seen(0) ? error.log(y[0] - x[0]) : S(0);
   }
   template <class S>
   S log_transition(Step, const State<S>& x, const State<S>& before) const {

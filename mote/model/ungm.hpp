@@ -60,7 +60,7 @@ struct Ungm {
   /// The state before its noise: f(x, t).
   template <class S>
   S drift(Step t, const S& x) const {
-    return S(p.a) * x + S(25) * x / (S(1) + x * x) + S(8 * std::cos(p.omega * (t - 1)));
+    return x * (S(p.a) + S(25) / (S(1) + x * x)) + S(8 * std::cos(p.omega * (t - 1)));
   }
 
   template <class S, class D>
@@ -72,9 +72,10 @@ struct Ungm {
 
   template <class S>
   S log_likelihood(Step, const State<S>& x, const Row<S>& y) const {
+    const NormalDensity error(p.r);
     S sum = S(0);
     for (std::size_t c = 0; c < Copies; ++c)
-      if (y.seen(c)) sum = sum + normal_log_density(y[c] - x[c] * x[c] * S(0.05), p.r);
+      if (y.seen(c)) sum = sum + error.log(y[c] - x[c] * x[c] * S(0.05));
     return sum;
   }
 

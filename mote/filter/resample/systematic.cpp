@@ -7,8 +7,7 @@ namespace mote {
 void systematic(std::span<const double> weights, const Draws& draws, std::span<std::uint32_t> ancestors) {
   const WeightScan scan(weights);
   const double step = scan.total() / static_cast<double>(ancestors.size());
-  auto block = draws.block(Purpose::kSelect);
-  const double u = block.particle(0).uniform();
+  const double u = draws.uniform(Purpose::kSelect);
   WeightScan::Walk walk(scan);
   for (std::size_t j = 0; j < ancestors.size(); ++j)
     ancestors[j] = static_cast<std::uint32_t>(walk.find((static_cast<double>(j) + u) * step));

@@ -1,0 +1,32 @@
+#pragma once
+/// Memory for long columns of numbers: aligned to a vector's 64 bytes, in huge pages when it is long.
+
+#include <cstddef>
+#include <vector>
+
+namespace mote {
+
+/// Bytes on a 64-byte boundary; from 4 MB on, on a 2 MB boundary and offered to the kernel for huge pages.
+///
+/// error   std::bad_alloc
+void* allocate_aligned(std::size_t bytes);
+void free_aligned(void* memory, std::size_t bytes) noexcept;
+
+/// The allocator of AlignedVector.
+template <class T>
+struct AlignedAllocator {
+  using value_type = T;
+
+  AlignedAllocator() = default;
+  template <class U>
+  AlignedAllocator(const AlignedAllocator<U>&) {}  // NOLINT(google-explicit-constructor): rebinding, as allocators do
+
+  T* allocate(std::size_t n) { return static_cast<T*>(allocate_aligned(n * sizeof(T))); }
+  void deallocate(T* memory, std::size_t n) noexcept { free_aligned(memory, n * sizeof(T)); }
+  friend bool operator==(const AlignedAllocator&, const AlignedAllocator&) { return true; }
+};
+
+template <class T>
+using AlignedVector = std::vector<T, AlignedAllocator<T>>;
+
+}  // namespace mote

@@ -1,0 +1,383 @@
+#pragma once
+/// The addressed draws of base/draws.hpp, a vector of particles at a time: the same bits, eight generators side by side.
+
+#include <vector>
+
+#include "mote/base/draws.hpp"
+#include "mote/lanes/normal_table.hpp"
+#include "mote/lanes/vector.hpp"
+
+namespace mote::lanes {
+inline namespace HWY_NAMESPACE {
+
+/// Eight xoshiro256++ generators side by side, keyed by an address.
+///
+/// cost    construction: two blocks of Philox4x32-10 over eight lanes; a word of each generator: ten instructions
+class Generators {
+ public:
+  using Words = Registers<std::uint64_t>;
+
+  explicit MOTE_INLINE Generators(const Address& address) {
+    using Tag = Words::Tag;
+    alignas(64) static constexpr std::array<std::uint64_t, 8> kLane{0, 1, 2, 3, 4, 5, 6, 7};
+    const auto use = static_cast<std::uint32_t>(address.purpose) + (address.stream << 8U);
+    for (std::uint64_t half = 0; half < 2; ++half) {
+      std::array<Words, 4> c{Words::all(address.block), Words::all(address.step), Words::all(use),
+                             Words::map([&](auto lane) { return hn::Add(lane, hn::Set(Tag{}, 8 * half)); }, Words::load(kLane.data()))};
+      encrypt(c, address.seed);
+      s_[2 * half] = joined(c[0], c[1]);
+      s_[2 * half + 1] = joined(c[2], c[3]);
+    }
+  }
+
+  /// The next word of every generator.
+  MOTE_INLINE Words next() {
+    const Words word = plus(rotated<23>(plus(s_[0], s_[3])), s_[0]);
+    const Words t = Words::map([](auto x) { return hn::ShiftLeft<17>(x); }, s_[1]);
+    s_[2] = mixed_in(s_[2], s_[0]);
+    s_[3] = mixed_in(s_[3], s_[1]);
+    s_[1] = mixed_in(s_[1], s_[2]);
+    s_[0] = mixed_in(s_[0], s_[3]);
+    s_[2] = mixed_in(s_[2], t);
+    s_[3] = rotated<45>(s_[3]);
+    return word;
+  }
+
+  /// What refines a float draw far in the tail, one word a generator; see Draw<float>::normal.
+  const Words& refinement() const { return s_[1]; }
+
+ private:
+  static MOTE_INLINE Words plus(const Words& a, const Words& b) {
+    return Words::map([](auto x, auto y) { return hn::Add(x, y); }, a, b);
+  }
+  static MOTE_INLINE Words mixed_in(const Words& a, const Words& b) {
+    return Words::map([](auto x, auto y) { return hn::Xor(x, y); }, a, b);
+  }
+  template <int kLeft>
+  static MOTE_INLINE Words rotated(const Words& a) {
+    return Words::map([](auto x) { return hn::RotateRight<64 - kLeft>(x); }, a);
+  }
+  static MOTE_INLINE Words joined(const Words& low, const Words& high) {
+    return Words::map([](auto l, auto h) { return hn::Or(l, hn::ShiftLeft<32>(h)); }, low, high);
+  }
+
+  /// Philox4x32-10 on the low halves of 64-bit lanes.
+  static MOTE_INLINE void encrypt(std::array<Words, 4>& c, std::uint64_t seed) {
+    using Tag = Words::Tag;
+    using Halves = Registers<std::uint32_t>;
+    auto key0 = static_cast<std::uint32_t>(seed);
+    auto key1 = static_cast<std::uint32_t>(seed >> 32U);
+    const auto product = [](const Words& a, std::uint64_t factor) {
+      return Words::map(
+          [&](auto x) {
+            const typename Halves::Tag halves;
+            return hn::MulEven(hn::BitCast(halves, x), hn::BitCast(halves, hn::Set(Tag{}, factor)));
+          },
+          a);
+    };
+    const auto high = [](const Words& a) { return Words::map([](auto x) { return hn::ShiftRight<32>(x); }, a); };
+    const auto low = [](const Words& a) {
+      return Words::map([](auto x) { return hn::And(x, hn::Set(Tag{}, 0xFFFFFFFFU)); }, a);
+    };
+    for (int round = 0; round < 10; ++round) {
+      const Words first = product(c[0], 0xD2511F53U);
+      const Words second = product(c[2], 0xCD9E8D57U);
+      c[0] = mixed_in(mixed_in(high(second), c[1]), Words::all(key0));
+      c[2] = mixed_in(mixed_in(high(first), c[3]), Words::all(key1));
+      c[1] = low(second);
+      c[3] = low(first);
+      key0 += 0x9E3779B9U;
+      key1 += 0xBB67AE85U;
+    }
+  }
+
+  std::array<Words, 4> s_;
+};
+
+/// The polynomials of the normal table in registers, where they fit.
+template <class R>
+class NormalPolynomials;
+
+template <>
+class NormalPolynomials<float> {
+ public:
+  MOTE_INLINE NormalPolynomials() : table_(&normal_table()) {
+    for (std::size_t j = 0; j < c_.size(); ++j) c_[j] = Registers<float>::load(table_->narrow[j].data());
+  }
+
+  /// |z| for the numbers u = p 2^32 given by their bits.
+  MOTE_INLINE Vector<float> operator()(const Registers<std::uint32_t>& u) const {
+    using Tag = Registers<std::uint32_t>::Tag;
+    const auto v = Registers<std::uint32_t>::map(
+        [](auto x) { return hn::Or(hn::And(x, hn::Set(Tag{}, 0x7FFFFFU)), hn::Set(Tag{}, 0x3F800000U)); }, u);
+    const Vector<float> s = Vector<float>(v.template as<float>()) - Vector<float>(1.5F);
+    const auto exponent = Registers<std::uint32_t>::map([](auto x) { return hn::ShiftRight<23>(x); }, u);
+    return horner<NormalTable::kDegreeFloat>(s, [&](std::size_t j) { return entry(j, exponent); });
+  }
+
+ private:
+  MOTE_INLINE Vector<float> entry(std::size_t j, const Registers<std::uint32_t>& exponent) const {
+#if HWY_TARGET <= HWY_AVX3
+    using Register = Registers<float>::Register;
+    return Vector<float>(Registers<float>{{Register{_mm512_permutexvar_ps(exponent.r[0].raw, c_[j].r[0].raw)}}});
+#else
+    return Vector<float>(Registers<float>::map(
+        [&](auto e) {
+          const Registers<std::int32_t>::Tag tag;
+          return hn::GatherIndex(Registers<float>::Tag{}, table_->narrow[j].data(),
+                                 hn::And(hn::BitCast(tag, e), hn::Set(tag, 15)));
+        },
+        exponent));
+#endif
+  }
+
+  const NormalTable* table_;
+  std::array<Registers<float>, NormalTable::kDegreeFloat + 1> c_;
+};
+
+template <>
+class NormalPolynomials<double> {
+ public:
+  NormalPolynomials() : table_(&normal_table()) {}
+
+  /// |z| for the numbers u = p 2^64, p >= 2^-9, given by their bits.
+  MOTE_INLINE Vector<double> operator()(const Registers<std::uint64_t>& u) const { return from(table_->wide, u); }
+  /// The same for 2^-17 <= p < 2^-9.
+  MOTE_INLINE Vector<double> low(const Registers<std::uint64_t>& u) const { return from(table_->wide_low, u); }
+
+ private:
+  using Part = std::array<std::array<double, 8>, NormalTable::kDegreeDouble + 1>;
+
+  static MOTE_INLINE Vector<double> from(const Part& part, const Registers<std::uint64_t>& u) {
+    using Tag = Registers<std::uint64_t>::Tag;
+    const auto v = Registers<std::uint64_t>::map(
+        [](auto x) { return hn::Or(hn::And(x, hn::Set(Tag{}, 0xFFFFFFFFFFFFFULL)), hn::Set(Tag{}, 0x3FF0000000000000ULL)); }, u);
+    const Vector<double> s = Vector<double>(v.template as<double>()) - Vector<double>(1.5);
+    const auto exponent = Registers<std::uint64_t>::map([](auto x) { return hn::ShiftRight<52>(x); }, u);
+    return horner<NormalTable::kDegreeDouble>(s, [&](std::size_t j) { return entry(part[j], exponent); });
+  }
+  static MOTE_INLINE Vector<double> entry(const std::array<double, 8>& row, const Registers<std::uint64_t>& exponent) {
+#if HWY_TARGET <= HWY_AVX3
+    using Register = Registers<double>::Register;
+    return Vector<double>(Registers<double>{{Register{_mm512_permutexvar_pd(exponent.r[0].raw, _mm512_load_pd(row.data()))}}});
+#else
+    return Vector<double>(Registers<double>::map(
+        [&](auto e) {
+          const Registers<std::int64_t>::Tag tag;
+          return hn::GatherIndex(Registers<double>::Tag{}, row.data(), hn::And(hn::BitCast(tag, e), hn::Set(tag, 7)));
+        },
+        exponent));
+#endif
+  }
+
+  const NormalTable* table_;
+};
+
+/// The draws of kWidth<R> neighbouring particles of a block: what a model receives as `draw` when S is a vector.
+///
+/// Uniform numbers and the bits behind every draw equal those of Draw<R>; normal numbers differ by the table's error.
+template <class R>
+class VectorDraw {
+ public:
+  explicit MOTE_INLINE VectorDraw(const Address& address) : generators_(address) {}
+  MOTE_INLINE Vector<R> normal() {
+    if constexpr (std::is_same_v<R, float>) {
+      return normal_float();
+    } else {
+      return normal_double();
+    }
+  }
+
+  MOTE_INLINE Vector<R> uniform() {
+    if constexpr (std::is_same_v<R, float>) {
+      using Tag = Registers<std::uint32_t>::Tag;
+      // 1 + k 2^-23 by its bits, minus what centres it: exactly (k + 1/2) 2^-23
+      const auto one_to_two = Registers<std::uint32_t>::map(
+          [](auto x) { return hn::Or(hn::ShiftRight<9>(x), hn::Set(Tag{}, 0x3F800000U)); }, halves(generators_.next()));
+      return Vector<float>(one_to_two.template as<float>()) - Vector<float>(1.0F - 0x1p-24F);
+    } else {
+      using Tag = Registers<std::uint64_t>::Tag;
+      const auto one_to_two = Registers<std::uint64_t>::map(
+          [](auto x) { return hn::Or(hn::ShiftRight<12>(x), hn::Set(Tag{}, 0x3FF0000000000000ULL)); }, generators_.next());
+      return Vector<double>(one_to_two.template as<double>()) - Vector<double>(1.0 - 0x1p-53);
+    }
+  }
+
+ private:
+  static constexpr int kXorOfAnd = 0x78;  // a ^ (b & c), as a truth table
+
+  /// Low halves of the eight words, then their high halves: the order of the sixteen particles.
+  static MOTE_INLINE Registers<std::uint32_t> halves(const Generators::Words& words) {
+    using U = Registers<std::uint32_t>;
+    const U u = words.template as<std::uint32_t>();
+#if HWY_TARGET <= HWY_AVX3
+    const __m512i order = _mm512_set_epi32(15, 13, 11, 9, 7, 5, 3, 1, 14, 12, 10, 8, 6, 4, 2, 0);
+    return U{{U::Register{_mm512_permutexvar_epi32(order, u.r[0].raw)}}};
+#else
+    U out;
+    constexpr std::size_t kPairs = U::kCount / 2;
+    for (std::size_t k = 0; k < kPairs; ++k) {
+      out.r[k] = hn::ConcatEven(U::Tag{}, u.r[2 * k + 1], u.r[2 * k]);
+      out.r[kPairs + k] = hn::ConcatOdd(U::Tag{}, u.r[2 * k + 1], u.r[2 * k]);
+    }
+    return out;
+#endif
+  }
+
+  MOTE_INLINE Vector<float> normal_float() {
+    using U = Registers<std::uint32_t>;
+    using Tag = U::Tag;
+    const U bits = halves(generators_.next());
+    const U m = U::map([](auto b) { return hn::And(b, hn::Set(Tag{}, 0x7FFFFFFFU)); }, bits);
+    Registers<float> u;
+#if HWY_TARGET <= HWY_AVX3
+    u.r[0].raw = _mm512_cvt_roundepi32_ps(m.r[0].raw, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
+#else
+    u = Registers<float>::map(
+        [](auto x) {
+          const Registers<float>::Tag tag;
+          const auto whole = hn::BitCast(Registers<std::int32_t>::Tag{}, x);
+          return hn::Min(hn::ConvertTo(tag, whole), hn::Set(tag, 2147483520.0F));  // rounded up it would be 2^31
+        },
+        m);
+#endif
+    Vector<float> z = polynomials_(u.template as<std::uint32_t>());
+    const Mask<float> rare = Vector<float>(u) < Vector<float>(32768.0F);
+    if (__builtin_expect(rare.any(), 0)) z = tail(z, bits, generators_.refinement(), rare.bits());
+    return signed_as(z, bits);
+  }
+
+  MOTE_INLINE Vector<double> normal_double() {
+    using U = Registers<std::uint64_t>;
+    using Tag = U::Tag;
+    const U bits = generators_.next();
+    const U m = U::map([](auto b) { return hn::And(b, hn::Set(Tag{}, 0x7FFFFFFFFFFFFFFFULL)); }, bits);
+    const auto u = Registers<double>::map(
+        [](auto x) {
+          const Registers<double>::Tag tag;
+          const auto whole = hn::BitCast(Registers<std::int64_t>::Tag{}, x);
+          return hn::Min(hn::ConvertTo(tag, whole), hn::Set(tag, 9223372036854774784.0));
+        },
+        m);
+    Vector<double> z = polynomials_(u.template as<std::uint64_t>());
+    const Mask<double> low = Vector<double>(u) < Vector<double>(0x1p55);
+    if (__builtin_expect(low.any(), 0)) {
+      z = select(low, polynomials_.low(u.template as<std::uint64_t>()), z);
+      const Mask<double> rare = Vector<double>(u) < Vector<double>(0x1p47);
+      if (__builtin_expect(rare.any(), 0)) z = tail(z, bits, generators_.refinement(), rare.bits());
+    }
+    return signed_as(z, bits);
+  }
+
+  template <class U>
+  static MOTE_INLINE Vector<R> signed_as(const Vector<R>& z, const Registers<U>& bits) {
+#if HWY_TARGET <= HWY_AVX3
+    if constexpr (std::is_same_v<R, float>) {
+      const __m512i value = _mm512_castps_si512(z.parts.r[0].raw);
+      return Vector<R>(Registers<R>{{typename Registers<R>::Register{_mm512_castsi512_ps(
+          _mm512_ternarylogic_epi32(value, bits.r[0].raw, _mm512_set1_epi32(INT32_MIN), kXorOfAnd))}}});
+    } else {
+      const __m512i value = _mm512_castpd_si512(z.parts.r[0].raw);
+      return Vector<R>(Registers<R>{{typename Registers<R>::Register{_mm512_castsi512_pd(
+          _mm512_ternarylogic_epi64(value, bits.r[0].raw, _mm512_set1_epi64(INT64_MIN), kXorOfAnd))}}});
+    }
+#else
+    return Vector<R>(Registers<R>::map(
+        [](auto value, auto b) {
+          const auto sign = hn::Set(typename Registers<U>::Tag{}, U{1} << (8 * sizeof(U) - 1));
+          return hn::Xor(value, hn::BitCast(typename Registers<R>::Tag{}, hn::And(b, sign)));
+        },
+        z.parts, bits));
+#endif
+  }
+
+  /// Draws of less than 2^-17 probability, one by one from the quantile itself; signed_as() gives them their sign.
+  ///
+  template <class U>
+  [[gnu::noinline, gnu::const]] static Vector<R> tail(Vector<R> z, Registers<U> bits, Generators::Words refinement,
+                                                      std::uint32_t rare) noexcept {
+    alignas(64) std::array<R, kWidth<R>> value;
+    alignas(64) std::array<U, kWidth<R>> word;
+    z.store(value.data());
+    bits.store(word.data());
+    alignas(64) std::array<std::uint64_t, 8> more;
+    refinement.store(more.data());
+    for (std::size_t i = 0; i < kWidth<R>; ++i) {
+      if ((rare >> i & 1U) == 0) continue;
+      if constexpr (std::is_same_v<R, float>) {
+        value[i] = std::abs(normal_from_bits(word[i], mixed(more[i % 8] + i / 8)));
+      } else {
+        value[i] = std::abs(normal_from_bits(word[i]));
+      }
+    }
+    return Vector<R>::load(value.data());
+  }
+
+  Generators generators_;
+  NormalPolynomials<R> polynomials_;
+};
+
+/// Which draws a model takes for a particle, in order: the same for every particle of a step.
+struct DrawPattern {
+  std::vector<bool> normal;  ///< normal or uniform
+
+  friend bool operator==(const DrawPattern&, const DrawPattern&) = default;
+};
+
+/// A draw that notes what is asked of it.
+template <class V>
+class PatternDraw {
+ public:
+  V normal() { return note(true); }
+  V uniform() { return note(false); }
+  const DrawPattern& pattern() const { return pattern_; }
+
+ private:
+  V note(bool normal) {
+    pattern_.normal.push_back(normal);
+    return V(0.5);
+  }
+  DrawPattern pattern_;
+};
+
+/// Draws made ahead: what a model receives in the loop over particles, in vectors of any width.
+///
+/// The numbers are made by a loop of their own: it holds the generators and the table, the model's loop its constants,
+/// and neither runs out of registers. The model's loop has no rare branch then, behind which g++ would compute at every
+/// turn what depends on the time alone.
+template <class V>
+class ReadyDraw {
+ public:
+  using Number = typename V::Number;
+  /// `numbers` holds draw k of the particle at offset j of a block at numbers[k kBlock + j].
+  MOTE_INLINE ReadyDraw(const Number* numbers, std::size_t j) : next_(numbers + j) {}
+
+  MOTE_INLINE V normal() { return take(); }
+  MOTE_INLINE V uniform() { return take(); }
+
+ private:
+  MOTE_INLINE V take() {
+    const V number = V::load(next_);
+    next_ += kBlock;
+    return number;
+  }
+  const Number* next_;
+};
+
+/// Makes the draws of the next `count` particles, as ReadyDraw reads them from offset 0 on.
+template <class R>
+[[gnu::flatten, gnu::noinline]] void make_ready(VectorDraw<R>& source, const DrawPattern& pattern, std::size_t count, R* numbers) {
+  VectorDraw<R> draw = source;
+  const std::size_t draws = pattern.normal.size();
+  if (draws == 1 && pattern.normal[0]) {
+    for (std::size_t j = 0; j < count; j += kWidth<R>) draw.normal().store(numbers + j);
+  } else {
+    for (std::size_t j = 0; j < count; j += kWidth<R>)
+      for (std::size_t k = 0; k < draws; ++k)
+        (pattern.normal[k] ? draw.normal() : draw.uniform()).store(numbers + k * kBlock + j);
+  }
+  source = draw;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace mote::lanes

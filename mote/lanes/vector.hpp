@@ -1,0 +1,281 @@
+#pragma once
+/// The vector number type: sixteen floats or eight doubles, one particle a lane, which models accept as their S.
+///
+/// A vector is one 512-bit register, two of 256 or four of 128 bits, whatever the file that includes this is compiled
+/// for; its width in lanes never changes, so neither do the addresses of random numbers. Everything lives in a namespace
+/// named after the instruction set: files compiled for different ones can be linked into one program. Built on Highway;
+/// docs/decisions/0004-vector-library.md.
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+#include <hwy/highway.h>
+
+#include "mote/base/numbers.hpp"
+
+#define MOTE_INLINE inline __attribute__((always_inline))
+
+namespace mote::lanes {
+inline namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// f(0), ..., f(kCount - 1) without a loop in the code: a loop inside a loop over particles, however short, keeps g++
+/// from taking constants out of the outer one.
+template <std::size_t kCount, class F>
+MOTE_INLINE void unrolled(const F& f) {
+  [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) { (f(k), ...); }
+  (std::make_index_sequence<kCount>());
+}
+
+/// Lanes of a vector of R.
+template <class R>
+inline constexpr std::size_t kWidth = 64 / sizeof(R);
+
+/// True where 512-bit registers and their masks exist: the few places where one instruction does what others build.
+inline constexpr bool kWide = HWY_TARGET <= HWY_AVX3;
+
+/// A vector of kBytes bytes of T, as native registers: what Vector and the generators are made of.
+template <class T, std::size_t kBytes = 64>
+struct Registers {
+  static constexpr std::size_t kLanes = kBytes / sizeof(T);
+  using Tag = hn::CappedTag<T, 64 / sizeof(T)>;
+  using Register = hn::Vec<Tag>;
+  static constexpr std::size_t kPerRegister = hn::MaxLanes(Tag{});
+  static constexpr std::size_t kCount = kLanes / kPerRegister;
+
+  std::array<Register, kCount> r;
+
+  static MOTE_INLINE Registers load(const T* from) {
+    Registers out;
+    unrolled<kCount>([&](std::size_t k) { out.r[k] = hn::LoadU(Tag{}, from + k * kPerRegister); });
+    return out;
+  }
+  static MOTE_INLINE Registers all(T value) {
+    Registers out;
+    unrolled<kCount>([&](std::size_t k) { out.r[k] = hn::Set(Tag{}, value); });
+    return out;
+  }
+  MOTE_INLINE void store(T* to) const {
+    unrolled<kCount>([&](std::size_t k) { hn::StoreU(r[k], Tag{}, to + k * kPerRegister); });
+  }
+  /// f applied register by register.
+  template <class F, class... Others>
+  static MOTE_INLINE Registers map(F f, const Others&... others) {
+    Registers out;
+    unrolled<kCount>([&](std::size_t k) { out.r[k] = f(others.r[k]...); });
+    return out;
+  }
+  /// The same bits as lanes of U.
+  template <class U>
+  MOTE_INLINE Registers<U, kBytes> as() const {
+    Registers<U, kBytes> out;
+    unrolled<kCount>([&](std::size_t k) { out.r[k] = hn::BitCast(typename Registers<U>::Tag{}, r[k]); });
+    return out;
+  }
+};
+
+/// Where a comparison holds, lane by lane.
+template <class R, std::size_t kBytes = 64>
+struct Mask {
+  using Parts = Registers<R, kBytes>;
+  using Register = hn::Mask<typename Parts::Tag>;
+  std::array<Register, Parts::kCount> r;
+
+  /// One bit a lane, lane 0 lowest.
+  MOTE_INLINE std::uint32_t bits() const {
+    std::uint32_t all = 0;
+    for (std::size_t k = 0; k < r.size(); ++k) {
+#if HWY_TARGET <= HWY_AVX3
+      const auto low = static_cast<std::uint32_t>(r[k].raw);
+#else
+      std::array<std::uint8_t, 8> bytes{};
+      hn::StoreMaskBits(typename Parts::Tag{}, r[k], bytes.data());
+      const auto low = static_cast<std::uint32_t>(bytes[0] | (bytes[1] << 8U));
+#endif
+      all |= low << static_cast<std::uint32_t>(k * Parts::kPerRegister);
+    }
+    return all;
+  }
+  friend MOTE_INLINE Mask operator|(const Mask& a, const Mask& b) {
+    Mask out;
+    for (std::size_t k = 0; k < out.r.size(); ++k) out.r[k] = hn::Or(a.r[k], b.r[k]);
+    return out;
+  }
+  MOTE_INLINE bool any() const {
+    bool some = false;
+    for (const auto& part : r) some = some || !hn::AllFalse(typename Parts::Tag{}, part);
+    return some;
+  }
+};
+
+/// kBytes / sizeof(R) numbers at once: by default as many as a block's generators serve. With 128 bytes, every operation
+/// is done on two independent halves one after the other, which hides the latency of long chains of operations.
+template <class R, std::size_t kBytes = 64>
+struct Vector {
+  using Number = R;
+  using Parts = Registers<R, kBytes>;
+  using Tag = typename Parts::Tag;
+  static constexpr std::size_t kLanes = Parts::kLanes;
+
+  Parts parts;
+
+  Vector() = default;
+  MOTE_INLINE explicit Vector(const Parts& p) : parts(p) {}
+  /// The same number in every lane.
+  template <class T>
+    requires std::is_arithmetic_v<T>
+  MOTE_INLINE explicit Vector(T all) : parts(Parts::all(static_cast<R>(all))) {}
+
+  static MOTE_INLINE Vector load(const R* from) { return Vector(Parts::load(from)); }
+  MOTE_INLINE void store(R* to) const { parts.store(to); }
+
+  template <class F, class... Others>
+  static MOTE_INLINE Vector map(F f, const Others&... others) {
+    return Vector(Parts::map(f, others.parts...));
+  }
+  template <class F, class... Others>
+  static MOTE_INLINE Mask<R, kBytes> compare(F f, const Others&... others) {
+    Mask<R, kBytes> out;
+    unrolled<Parts::kCount>([&](std::size_t k) { out.r[k] = f(others.parts.r[k]...); });
+    return out;
+  }
+
+  friend MOTE_INLINE Vector operator+(const Vector& a, const Vector& b) {
+    return map([](auto x, auto y) { return hn::Add(x, y); }, a, b);
+  }
+  friend MOTE_INLINE Vector operator-(const Vector& a, const Vector& b) {
+    return map([](auto x, auto y) { return hn::Sub(x, y); }, a, b);
+  }
+  friend MOTE_INLINE Vector operator*(const Vector& a, const Vector& b) {
+    return map([](auto x, auto y) { return hn::Mul(x, y); }, a, b);
+  }
+  friend MOTE_INLINE Vector operator-(const Vector& a) {
+    return map([](auto x) { return hn::Neg(x); }, a);
+  }
+  friend MOTE_INLINE Mask<R, kBytes> operator<(const Vector& a, const Vector& b) {
+    return compare([](auto x, auto y) { return hn::Lt(x, y); }, a, b);
+  }
+  friend MOTE_INLINE Mask<R, kBytes> operator==(const Vector& a, const Vector& b) {
+    return compare([](auto x, auto y) { return hn::Eq(x, y); }, a, b);
+  }
+  friend MOTE_INLINE Mask<R, kBytes> operator<=(const Vector& a, const Vector& b) {
+    return compare([](auto x, auto y) { return hn::Le(x, y); }, a, b);
+  }
+  /// Quotient; error below 2.5 ulp where divisor and quotient are normal numbers, infinities and zeros as usual.
+  friend MOTE_INLINE Vector operator/(const Vector& a, const Vector& b) {
+#if HWY_TARGET <= HWY_AVX3
+    // 14 bits of the reciprocal, then Newton. For b = 0 or infinite the correction is NaN, which max() replaces.
+    if constexpr (std::is_same_v<R, float>) {
+      return map(
+          [](auto x, auto y) {
+            const auto r = decltype(y){_mm512_rcp14_ps(y.raw)};
+            const auto e = decltype(y){_mm512_max_ps(_mm512_fnmadd_ps(y.raw, r.raw, _mm512_set1_ps(2.0F)), _mm512_set1_ps(0.5F))};
+            return hn::Mul(x, hn::Mul(r, e));
+          },
+          a, b);
+    } else {
+      return map(
+          [](auto x, auto y) {
+            const __m512d two = _mm512_set1_pd(2.0);
+            const __m512d half = _mm512_set1_pd(0.5);
+            __m512d r = _mm512_rcp14_pd(y.raw);
+            r = _mm512_mul_pd(r, _mm512_max_pd(_mm512_fnmadd_pd(y.raw, r, two), half));
+            r = _mm512_mul_pd(r, _mm512_max_pd(_mm512_fnmadd_pd(y.raw, r, two), half));
+            return hn::Mul(x, decltype(y){r});
+          },
+          a, b);
+    }
+#else
+    return map([](auto x, auto y) { return hn::Div(x, y); }, a, b);
+#endif
+  }
+};
+
+/// a where the mask holds, else b.
+template <class R, std::size_t kBytes>
+MOTE_INLINE Vector<R, kBytes> select(const Mask<R, kBytes>& m, const Vector<R, kBytes>& a, const Vector<R, kBytes>& b) {
+  Vector<R, kBytes> out;
+  unrolled<Vector<R, kBytes>::Parts::kCount>(
+      [&](std::size_t k) { out.parts.r[k] = hn::IfThenElse(m.r[k], a.parts.r[k], b.parts.r[k]); });
+  return out;
+}
+template <class R, std::size_t kBytes>
+MOTE_INLINE Mask<R, kBytes> less(const Vector<R, kBytes>& a, const Vector<R, kBytes>& b) {
+  return a < b;
+}
+template <class R, std::size_t kBytes>
+MOTE_INLINE Vector<R, kBytes> abs(const Vector<R, kBytes>& a) {
+  return Vector<R, kBytes>::map([](auto x) { return hn::Abs(x); }, a);
+}
+template <class R, std::size_t kBytes>
+MOTE_INLINE Vector<R, kBytes> sqrt(const Vector<R, kBytes>& a) {
+  return Vector<R, kBytes>::map([](auto x) { return hn::Sqrt(x); }, a);
+}
+template <class R, std::size_t kBytes>
+MOTE_INLINE Vector<R, kBytes> floor(const Vector<R, kBytes>& a) {
+  return Vector<R, kBytes>::map([](auto x) { return hn::Floor(x); }, a);
+}
+/// The nearest whole number, ties to even.
+template <class R, std::size_t kBytes>
+MOTE_INLINE Vector<R, kBytes> round(const Vector<R, kBytes>& a) {
+  return Vector<R, kBytes>::map([](auto x) { return hn::Round(x); }, a);
+}
+/// The larger; b where a is NaN.
+template <class R, std::size_t kBytes>
+MOTE_INLINE Vector<R, kBytes> max(const Vector<R, kBytes>& a, const Vector<R, kBytes>& b) {
+  return Vector<R, kBytes>::map([](auto x, auto y) { return hn::Max(x, y); }, a, b);
+}
+template <class R, std::size_t kBytes>
+MOTE_INLINE Vector<R, kBytes> min(const Vector<R, kBytes>& a, const Vector<R, kBytes>& b) {
+  return Vector<R, kBytes>::map([](auto x, auto y) { return hn::Min(x, y); }, a, b);
+}
+/// a b + c in one rounding where the machine has it.
+template <class R, std::size_t kBytes>
+MOTE_INLINE Vector<R, kBytes> fma(const Vector<R, kBytes>& a, const Vector<R, kBytes>& b, const Vector<R, kBytes>& c) {
+  return Vector<R, kBytes>::map([](auto x, auto y, auto z) { return hn::MulAdd(x, y, z); }, a, b, c);
+}
+/// c - a b.
+template <class R, std::size_t kBytes>
+MOTE_INLINE Vector<R, kBytes> fnma(const Vector<R, kBytes>& a, const Vector<R, kBytes>& b, const Vector<R, kBytes>& c) {
+  return Vector<R, kBytes>::map([](auto x, auto y, auto z) { return hn::NegMulAdd(x, y, z); }, a, b, c);
+}
+
+/// entry(0) + entry(1) x + ... + entry(kDegree) x^kDegree by Horner's rule.
+template <std::size_t kDegree, class R, std::size_t kBytes, class Entry>
+MOTE_INLINE Vector<R, kBytes> horner(const Vector<R, kBytes>& x, const Entry& entry) {
+  Vector<R, kBytes> sum = entry(kDegree);
+  unrolled<kDegree>([&](std::size_t step) { sum = fma(sum, x, entry(kDegree - 1 - step)); });
+  return sum;
+}
+
+/// Lane 0.
+template <class R, std::size_t kBytes>
+MOTE_INLINE R first(const Vector<R, kBytes>& a) {
+  return hn::GetLane(a.parts.r[0]);
+}
+/// The sum of all lanes, formed in double.
+template <class R, std::size_t kBytes>
+MOTE_INLINE double sum(const Vector<R, kBytes>& a) {
+  alignas(64) std::array<R, kBytes / sizeof(R)> lane;
+  a.store(lane.data());
+  double total = 0;
+  for (std::size_t half = lane.size() / 2; half > 1; half /= 2)
+    for (std::size_t i = 0; i < half; ++i) lane[i] += lane[i + half];
+  total = static_cast<double>(lane[0]) + static_cast<double>(lane[1]);
+  return total;
+}
+/// The largest lane.
+template <class R, std::size_t kBytes>
+MOTE_INLINE R largest(const Vector<R, kBytes>& a) {
+  auto high = a.parts.r[0];
+  for (std::size_t k = 1; k < a.parts.r.size(); ++k) high = hn::Max(high, a.parts.r[k]);
+  return hn::GetLane(hn::MaxOfLanes(typename Vector<R, kBytes>::Tag{}, high));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace mote::lanes

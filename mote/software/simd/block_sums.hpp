@@ -1,0 +1,75 @@
+#pragma once
+/// What a step knows of its blocks of 1024 particles, and what follows from it for all of them.
+
+#include <cstdint>
+#include <vector>
+
+#include "mote/filter/estimate.hpp"
+
+namespace mote {
+
+/// Where the children of each block of particles begin. Child j belongs to the particle whose cumulative share of N
+/// contains j + u.
+///
+///   position(b) = N sum_{i before block b} w_i / sum_i w_i - u,   first(b) = ceil(position(b))
+///
+/// shape   (blocks + 1,); first.front() = 0, first.back() = N; blocks without weight have no children
+struct ChildMap {
+  std::vector<double> position;
+  std::vector<std::uint32_t> first;
+  std::vector<double> children_per_weight;  ///< by block: N over the total, in the block's own scale
+
+  /// The block whose particles have child j.
+  std::size_t block_of(std::uint32_t child) const;
+};
+
+/// Sums over all particles. Weights are in units of 2^reference.
+struct Totals {
+  double reference = 0;  ///< largest shift of a block; -infinity when all weights are zero
+  double weight = 0;     ///< sum of weights
+  double square = 0;     ///< sum of their squares
+  std::size_t particles = 0;
+
+  bool collapsed() const { return !(weight > 0); }
+  double log_sum() const;  ///< log of the sum of weights, nat
+  double ess() const;
+  /// What a weight of a block counts here.
+  double scale_of(double shift) const;
+};
+
+/// Sums of one block, its weights in units of 2^shift.
+struct WeightSums {
+  double shift = 0, weight = 0, square = 0;
+};
+/// Sums of one component of one block about a centre: of w (x - c) and w (x - c)^2.
+struct ComponentSums {
+  double centre = 0, first = 0, second = 0;
+};
+
+/// The sums of every block, each written by whoever worked on the block, added in order.
+///
+/// cost    O(N / 1024) for every total; memory (3 + 3 D) 8 bytes a block
+class BlockSums {
+ public:
+  BlockSums(std::size_t particles, std::size_t dimensions);
+
+  std::size_t blocks() const { return weights_.size(); }
+  std::size_t particles() const { return particles_; }
+  void set(std::size_t block, const WeightSums& sums) { weights_[block] = sums; }
+  void set(std::size_t block, std::size_t d, const ComponentSums& sums) {
+    components_[block * dimensions_ + d] = sums;
+  }
+  double shift(std::size_t block) const { return weights_[block].shift; }
+
+  Totals totals() const;
+  Moments moments(const Totals& totals, std::size_t d) const;
+  /// Fills the map for u in (0, 1).
+  void map_children(const Totals& totals, double u, ChildMap& map) const;
+
+ private:
+  std::size_t particles_, dimensions_;
+  std::vector<WeightSums> weights_;
+  std::vector<ComponentSums> components_;
+};
+
+}  // namespace mote
