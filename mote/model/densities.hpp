@@ -30,4 +30,18 @@ S student_log_density(const S& residual, double scale, double dof) {
   return S(constant) - S((dof + 1) / 2) * log(S(1) + residual * residual * S(1 / (dof * scale * scale)));
 }
 
+/// A draw of Student's t by Bailey's polar formula.
+///
+///   sqrt(v (U1^(-2/v) - 1)) cos(2 pi U2)
+///
+/// shape   dof v > 0; takes two uniforms
+/// source  Bailey 1994, Polar generation of random variates with the t-distribution
+template <class S, class D>
+S student(double dof, D& draw) {
+  using namespace numbers;
+  const S u = draw.uniform();
+  const S angle = draw.uniform();
+  return sqrt(S(dof) * (exp(log(u) * S(-2 / dof)) - S(1))) * cos(S(2 * kPi) * angle);
+}
+
 }  // namespace mote
