@@ -4,6 +4,7 @@
 #include <array>
 
 #include "mote/model/densities.hpp"
+#include "mote/model/guided.hpp"
 #include "mote/model/model.hpp"
 #include "mote/model/parameter.hpp"
 
@@ -39,7 +40,8 @@ struct Bearings {
   using Parameters = BearingsParameters;
   template <class S>
   using State = std::array<S, 4>;
-  using Proposals = std::tuple<Prior, BearingsWide>;
+  using Proposals = std::tuple<Prior, BearingsWide, Guided>;
+  static constexpr std::size_t kNoise = 2;
 
   static constexpr std::array<Parameter<Parameters>, 15> kParameters{{
       {"period", &Parameters::period, Range::kPositive, "s", "time between steps"},
@@ -105,15 +107,36 @@ struct Bearings {
 
   template <class S>
   S log_likelihood(Step, const State<S>& x, const Row<S>& y) const {
-    using namespace numbers;
     if (!y.seen(0)) return S(0);
-    const S azimuth = atan2(x[2] - y[2], x[0] - y[1]);
-    const S residual = wrap(y[0] + y[3] - azimuth + bend(azimuth - y[3]));
+    const S residual = error(x, y);
     return p.dof > 0 ? student_log_density(residual, scale(), p.dof) : normal_log_density(residual, scale() * scale());
   }
 
   /// Scale of one bearing error, in rad, widened for errors that repeat: sigma_r sqrt((1 + c) / (1 - c)).
   double scale() const { return p.sigma_r * std::sqrt((1 + p.correlation) / (1 - p.correlation)); }
+
+  /// The bearing error of a row that sees the state x, in rad.
+  template <class S>
+  S error(const State<S>& x, const Row<S>& y) const {
+    using namespace numbers;
+    const S azimuth = atan2(x[2] - y[2], x[0] - y[1]);
+    return wrap(y[0] + y[3] - azimuth + bend(azimuth - y[3]));
+  }
+
+  /// The accelerations that lead from `before` to `x`, in sigma_u, read off the velocities.
+  template <class S>
+  std::array<S, kNoise> noise(Step, const State<S>& x, const State<S>& before) const {
+    const S d = S(p.damping);
+    const S per_velocity = S(1 / (p.period * p.sigma_u));
+    return {(x[1] - d * before[1]) * per_velocity, (x[3] - d * before[3]) * per_velocity};
+  }
+
+  template <class S, class Add>
+  void innovations(Step, const State<S>& x, const Row<S>& y, Add add) const {
+    if (!y.seen(0)) return;
+    const S residual = error(x, y) * S(1 / scale());
+    add(residual, student_weight(residual, p.dof));
+  }
 
   /// The density of the acceleration that leads from `before` to `x`, read off the velocities.
   template <class S>

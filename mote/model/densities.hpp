@@ -30,6 +30,16 @@ S student_log_density(const S& residual, double scale, double dof) {
   return S(constant) - S((dof + 1) / 2) * log(S(1) + residual * residual * S(1 / (dof * scale * scale)));
 }
 
+/// The curvature that stands for Student's -log density in a Gauss-Newton step: its gradient is weight times residual.
+///
+///   (v + 1) / (v + e^2);   1 for dof = 0, a normal error
+///
+/// shape   residual in scales
+template <class S>
+S student_weight(const S& residual, double dof) {
+  return dof > 0 ? S(dof + 1) / (S(dof) + residual * residual) : S(1);
+}
+
 /// A draw of Student's t by Bailey's polar formula.
 ///
 ///   sqrt(v (U1^(-2/v) - 1)) cos(2 pi U2)

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "mote/model/densities.hpp"
+#include "mote/model/guided.hpp"
 #include "mote/model/model.hpp"
 #include "mote/model/parameter.hpp"
 
@@ -36,7 +37,8 @@ struct Doa {
   using Parameters = DoaParameters;
   template <class S>
   using State = std::array<S, 3>;
-  using Proposals = std::tuple<Prior>;
+  using Proposals = std::tuple<Prior, Guided>;
+  static constexpr std::size_t kNoise = 3;
 
   static constexpr std::array<Parameter<Parameters>, 12> kParameters{{
       {"sigma_theta", &Parameters::sigma_theta, Range::kNotNegative, "",
@@ -114,6 +116,24 @@ struct Doa {
     return select(less(cosine * u.cosine, S(0)), S(-kInfinity), in_theta + in_q + in_phi);
   }
 
+  template <class S>
+  std::array<S, kNoise> noise(Step, const State<S>& x, const State<S>& before) const {
+    using namespace numbers;
+    const Undisturbed<S> u = undisturbed(before);
+    return {(tan(x[0]) - u.sine / u.cosine) * S(1 / p.sigma_theta), (x[1] - u.q) * S(1 / p.sigma_q),
+            wrap(x[2] - before[2]) * S(1 / p.sigma_phi)};
+  }
+
+  /// One innovation a frame: its mean error, which alone depends on the state.
+  template <class S, class Add>
+  void innovations(Step, const State<S>& x, const Row<S>& y, Add add) const {
+    const Errors<S> e = errors(x[0], y);
+    if (e.each.empty()) return;
+    const auto n = static_cast<double>(e.each.size());
+    const S residual = e.mean * S(std::sqrt(n / along(n)));
+    add(residual, p.dof > 0 ? S(p.dof + n) / (S(p.dof) + mahalanobis(e)) : S(1));
+  }
+
   template <class S, class D>
   Row<S> observe(Step, const State<S>& x, const Row<S>&, D& draw) const {
     using namespace numbers;
@@ -146,26 +166,44 @@ struct Doa {
   template <class S>
   S joint_log_likelihood(const S& theta, const Row<S>& y) const {
     using namespace numbers;
-    std::vector<S> errors;
-    S sum = S(0);
-    for (std::size_t m = 0; m < frame; ++m) {
-      if (!y.seen(m)) continue;
-      errors.push_back(wrap(y[m] - theta));
-      sum = sum + errors.back();
-    }
-    if (errors.empty()) return S(0);
-    const auto n = static_cast<double>(errors.size());
-    const double variance = p.sigma_o * p.sigma_o;
-    const double along = variance * (1 + (n - 1) * p.correlation);
-    const double across = variance * (1 - p.correlation);
-    const S mean = sum * S(1 / n);
-    S delta = mean * mean * S(n / along);
-    for (const S& e : errors) delta = delta + (e - mean) * (e - mean) * S(1 / across);
-    const double half_log_det = 0.5 * (std::log(along) + (n - 1) * std::log(across));
+    const Errors<S> e = errors(theta, y);
+    if (e.each.empty()) return S(0);
+    const auto n = static_cast<double>(e.each.size());
+    const double half_log_det = 0.5 * (std::log(along(n)) + (n - 1) * std::log(across()));
+    const S delta = mahalanobis(e);
     if (p.dof <= 0) return S(-0.5) * delta - S(half_log_det + 0.5 * n * std::log(2 * kPi));
     const double v = p.dof;
     const double constant = std::lgamma((v + n) / 2) - std::lgamma(v / 2) - 0.5 * n * std::log(v * kPi) - half_log_det;
     return S(constant) - S((v + n) / 2) * log(S(1) + delta * S(1 / v));
+  }
+
+  /// The errors of the directions that are seen, and their mean.
+  template <class S>
+  struct Errors {
+    SmallVector<S> each;
+    S mean;
+  };
+  template <class S>
+  Errors<S> errors(const S& theta, const Row<S>& y) const {
+    using namespace numbers;
+    Errors<S> e{{}, S(0)};
+    for (std::size_t m = 0; m < frame; ++m) {
+      if (!y.seen(m)) continue;
+      e.each.push_back(wrap(y[m] - theta));
+      e.mean = e.mean + e.each.back();
+    }
+    if (!e.each.empty()) e.mean = e.mean * S(1 / static_cast<double>(e.each.size()));
+    return e;
+  }
+  double along(double n) const { return p.sigma_o * p.sigma_o * (1 + (n - 1) * p.correlation); }
+  double across() const { return p.sigma_o * p.sigma_o * (1 - p.correlation); }
+  /// delta of the errors.
+  template <class S>
+  S mahalanobis(const Errors<S>& e) const {
+    const auto n = static_cast<double>(e.each.size());
+    S delta = e.mean * e.mean * S(n / along(n));
+    for (const S& error : e.each) delta = delta + (error - e.mean) * (error - e.mean) * S(1 / across());
+    return delta;
   }
 
   template <class S>
