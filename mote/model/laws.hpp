@@ -43,9 +43,11 @@ void add_proposals(const M& model, Step t, const StateOf<M, S>& before, const St
       all.push_back(proposal.template log_density<S>(model, t, x, before, rows));
     }
   };
-  [&]<class... G>(const std::tuple<G...>*) {
-    (add(static_cast<const G*>(nullptr)), ...);
-  }(static_cast<const typename M::Proposals*>(nullptr));
+  if constexpr (requires { typename M::Proposals; }) {
+    [&]<class... G>(const std::tuple<G...>*) {
+      (add(static_cast<const G*>(nullptr)), ...);
+    }(static_cast<const typename M::Proposals*>(nullptr));
+  }
 }
 
 /// All that a model computes at a scene – next state, log likelihood, log transition, proposals – in the number type S,
