@@ -78,7 +78,7 @@ TEST(Doa, OneDirectionIsTheUnivariateDensity) {
 
 TEST(Doa, WrapsTheResidual) {
   const Doa model = framed(1);
-  const double near = model.log_likelihood<double>(1, {kPi - 0.01, 0, 0}, Row<double>::of({-kPi + 0.01}));
+  const auto near = model.log_likelihood<double>(1, {kPi - 0.01, 0, 0}, Row<double>::of({-kPi + 0.01}));
   EXPECT_NEAR(near, normal_log_density(0.02, 0.0025), 1e-9);
 }
 
