@@ -4,6 +4,7 @@
 #include <array>
 
 #include "mote/model/densities.hpp"
+#include "mote/model/guided.hpp"
 #include "mote/model/model.hpp"
 #include "mote/model/parameter.hpp"
 
@@ -13,7 +14,7 @@ struct BearingsParameters {
   double period = 1, sigma_u = 0.001, sigma_r = 0.0488692, damping = 1;
   double x0 = 0.250, vx0 = 0.001, y0 = 0.240, vy0 = -0.005;
   double sd_x = 0.02, sd_vx = 0.002, sd_y = 0.02, sd_vy = 0.002;
-  double dof = 0;
+  double dof = 0, correlation = 0, distortion = 0;
 };
 
 struct BearingsWide;
@@ -21,7 +22,14 @@ struct BearingsWide;
 /// Target with damped velocity, driven by white acceleration, seen by its bearing from a sensor:
 ///
 ///   x' = x + T vx + T^2/2 u,  vx' = damping vx + T u,  (y likewise),   u ~ N(0, sigma_u^2) in each axis
-///   z  = atan2(y - sensor_y, x - sensor_x) - sensor_heading + r,   r ~ sigma_r times N(0, 1) or Student's t(dof)
+///   b  = atan2(y - sensor_y, x - sensor_x) - sensor_heading
+///   z  = b - distortion sin^3 b + r,   r ~ s times N(0, 1) or Student's t(dof)
+///   s  = sigma_r sqrt((1 + correlation) / (1 - correlation))
+///
+/// correlation is that of a sensor's errors in successive steps. The model takes errors for independent; n of them with
+/// autocorrelation c tell as much about a resting target as n (1 - c) / (1 + c) independent ones, so each is given the
+/// scale that makes it tell so little. distortion: a sensor that sees targets off its axis too near to the axis, by up
+/// to that angle; one-to-one below 0.86 rad.
 ///
 /// shape   state (x, vx, y, vy) in m, m/s; a row is one bearing in rad, relative to the sensor's heading
 /// source  MIXED (1)-(3): T = 1 s, damping 1, the sensor at the origin; docs/models.md
@@ -32,9 +40,10 @@ struct Bearings {
   using Parameters = BearingsParameters;
   template <class S>
   using State = std::array<S, 4>;
-  using Proposals = std::tuple<Prior, BearingsWide>;
+  using Proposals = std::tuple<Prior, BearingsWide, Guided>;
+  static constexpr std::size_t kNoise = 2;
 
-  static constexpr std::array<Parameter<Parameters>, 13> kParameters{{
+  static constexpr std::array<Parameter<Parameters>, 15> kParameters{{
       {"period", &Parameters::period, Range::kPositive, "s", "time between steps"},
       {"sigma_u", &Parameters::sigma_u, Range::kNotNegative, "m/s^2",
        "standard deviation of the acceleration, per axis"},
@@ -50,6 +59,10 @@ struct Bearings {
       {"sd_y", &Parameters::sd_y, Range::kNotNegative, "m", "standard deviation of y at t = 0"},
       {"sd_vy", &Parameters::sd_vy, Range::kNotNegative, "m/s", "standard deviation of vy at t = 0"},
       {"dof", &Parameters::dof, Range::kNotNegative, "", "degrees of freedom of Student's t error; 0 = Gaussian"},
+      {"correlation", &Parameters::correlation, Range::kFraction, "",
+       "correlation of a sensor's successive errors: each weighs as if its scale were sqrt((1+c)/(1-c)) larger"},
+      {"distortion", &Parameters::distortion, Range::kAny, "rad",
+       "by how much a target across the sensor's axis is seen too near to the axis"},
   }};
 
   Parameters p{};
@@ -94,12 +107,35 @@ struct Bearings {
 
   template <class S>
   S log_likelihood(Step, const State<S>& x, const Row<S>& y) const {
-    using namespace numbers;
     if (!y.seen(0)) return S(0);
+    const S residual = error(x, y);
+    return p.dof > 0 ? student_log_density(residual, scale(), p.dof) : normal_log_density(residual, scale() * scale());
+  }
+
+  /// Scale of one bearing error, in rad, widened for errors that repeat: sigma_r sqrt((1 + c) / (1 - c)).
+  double scale() const { return p.sigma_r * std::sqrt((1 + p.correlation) / (1 - p.correlation)); }
+
+  /// The bearing error of a row that sees the state x, in rad.
+  template <class S>
+  S error(const State<S>& x, const Row<S>& y) const {
+    using namespace numbers;
     const S azimuth = atan2(x[2] - y[2], x[0] - y[1]);
-    const S residual = wrap(y[0] + y[3] - azimuth);
-    return p.dof > 0 ? student_log_density(residual, p.sigma_r, p.dof)
-                     : normal_log_density(residual, p.sigma_r * p.sigma_r);
+    return wrap(y[0] + y[3] - azimuth + bend(azimuth - y[3]));
+  }
+
+  /// The accelerations that lead from `before` to `x`, in sigma_u, read off the velocities.
+  template <class S>
+  std::array<S, kNoise> noise(Step, const State<S>& x, const State<S>& before) const {
+    const S d = S(p.damping);
+    const S per_velocity = S(1 / (p.period * p.sigma_u));
+    return {(x[1] - d * before[1]) * per_velocity, (x[3] - d * before[3]) * per_velocity};
+  }
+
+  template <class S, class Add>
+  void innovations(Step, const State<S>& x, const Row<S>& y, Add add) const {
+    if (!y.seen(0)) return;
+    const S residual = error(x, y) * S(1 / scale());
+    add(residual, student_weight(residual, p.dof));
   }
 
   /// The density of the acceleration that leads from `before` to `x`, read off the velocities.
@@ -120,20 +156,19 @@ struct Bearings {
   template <class S, class D>
   Row<S> observe(Step, const State<S>& x, const Row<S>& inputs, D& draw) const {
     using namespace numbers;
-    const S error = S(p.sigma_r) * (p.dof > 0 ? student(draw) : S(draw.normal()));
-    const S bearing = wrap(atan2(x[2] - inputs[2], x[0] - inputs[1]) - inputs[3] + error);
-    return Row<S>::of({bearing, inputs[1], inputs[2], inputs[3]});
+    const S error = S(scale()) * (p.dof > 0 ? student<S>(p.dof, draw) : S(draw.normal()));
+    const S relative = atan2(x[2] - inputs[2], x[0] - inputs[1]) - inputs[3];
+    return Row<S>::of({wrap(relative - bend(relative) + error), inputs[1], inputs[2], inputs[3]});
   }
 
  private:
-  /// Student's t by Bailey's polar formula: two uniforms, any dof > 0.
-  template <class D>
-  auto student(D& draw) const {
+  /// distortion sin^3 relative: how much too near to its axis the sensor sees a target.
+  template <class S>
+  S bend(const S& relative) const {
     using namespace numbers;
-    const auto u = draw.uniform();
-    const auto angle = draw.uniform();
-    using S = std::remove_const_t<decltype(u)>;
-    return sqrt(S(p.dof) * (exp(log(u) * S(-2 / p.dof)) - S(1))) * cos(S(2 * kPi) * angle);
+    if (p.distortion == 0) return S(0);
+    const S sine = sin(relative);
+    return S(p.distortion) * sine * sine * sine;
   }
 };
 

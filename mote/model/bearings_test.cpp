@@ -8,6 +8,15 @@ namespace {
 MOTE_MODEL_LAWS(Bearings, Bearings{})
 MOTE_MODEL_LAWS(BearingsStudent, Bearings{{0.5, 0.05, 0.02, 0.9, 2, 0.1, 3, -0.1, 0.2, 0.02, 0.2, 0.02, 4}})
 
+/// Errors that repeat, with tails, in a sensor that sees targets too near to its axis.
+Bearings robust() {
+  Bearings model{{0.5, 0.05, 0.02, 0.9, 2, 0.1, 3, -0.1, 0.2, 0.02, 0.2, 0.02, 4}};
+  model.p.correlation = 0.6;
+  model.p.distortion = 0.35;
+  return model;
+}
+MOTE_MODEL_LAWS(BearingsRobust, robust())
+
 TEST(Bearings, MovesAsTheCatalogueSays) {
   Bearings model;
   model.p.period = 0.5;
@@ -28,6 +37,31 @@ TEST(Bearings, SeesRelativeToPositionAndHeadingOfTheSensor) {
   const auto turned = model.log_likelihood<double>(1, x, Row<double>::of({azimuth - 0.7 + 2 * kPi, 1, 2, 0.7}));
   EXPECT_NEAR(turned, best, 1e-9) << "whole turns do not matter";
   EXPECT_LT(model.log_likelihood<double>(1, x, Row<double>::of({azimuth - 0.7 + 0.1, 1, 2, 0.7})), best - 1);
+}
+
+// Three quarters of the autocorrelation, seven times the variance: 7 errors tell as much as one.
+TEST(Bearings, WidenTheScaleForErrorsThatRepeat) {
+  Bearings model;
+  model.p.sigma_r = 0.1;
+  model.p.correlation = 0.75;
+  EXPECT_NEAR(model.scale() * model.scale(), 7 * 0.01, 1e-12);
+  const double azimuth = std::atan2(4.0, 3.0);
+  EXPECT_NEAR((model.log_likelihood<double>(1, {3, 0, 4, 0}, Row<double>::of({azimuth + 0.2, 0, 0, 0}))),
+              normal_log_density(0.2, 0.07), 1e-12);
+}
+
+TEST(Bearings, SeesOffAxisTargetsTooNearToTheAxis) {
+  Bearings model;
+  model.p.distortion = 0.4;
+  const double heading = 0.3;
+  for (const double relative : {-2.8, -1.2, -0.1, 0.0, 0.7, 1.5, 3.0}) {
+    const std::array<double, 4> x{1 + 5 * std::cos(heading + relative), 0, 2 + 5 * std::sin(heading + relative), 0};
+    const double seen = relative - 0.4 * std::pow(std::sin(relative), 3);
+    EXPECT_NEAR(model.log_likelihood<double>(1, x, Row<double>::of({seen, 1, 2, heading})),
+                normal_log_density(0.0, model.p.sigma_r * model.p.sigma_r), 1e-9)
+        << relative;
+    EXPECT_LE(std::abs(seen), std::abs(relative));
+  }
 }
 
 TEST(Bearings, WideProposalWeighsInNoiseSpace) {

@@ -47,4 +47,28 @@ S student_log_density(const S& residual, double scale, double dof) {
   return S(constant) - S((dof + 1) / 2) * log(S(1) + residual * residual * S(1 / (dof * scale * scale)));
 }
 
+/// The curvature that stands for Student's -log density in a Gauss-Newton step: its gradient is weight times residual.
+///
+///   (v + 1) / (v + e^2);   1 for dof = 0, a normal error
+///
+/// shape   residual in scales
+template <class S>
+S student_weight(const S& residual, double dof) {
+  return dof > 0 ? S(dof + 1) / (S(dof) + residual * residual) : S(1);
+}
+
+/// A draw of Student's t by Bailey's polar formula.
+///
+///   sqrt(v (U1^(-2/v) - 1)) cos(2 pi U2)
+///
+/// shape   dof v > 0; takes two uniforms
+/// source  Bailey 1994, Polar generation of random variates with the t-distribution
+template <class S, class D>
+S student(double dof, D& draw) {
+  using namespace numbers;
+  const S u = draw.uniform();
+  const S angle = draw.uniform();
+  return sqrt(S(dof) * (exp(log(u) * S(-2 / dof)) - S(1))) * cos(S(2 * kPi) * angle);
+}
+
 }  // namespace mote

@@ -16,5 +16,15 @@ TEST(Densities, AgreeWithBoost) {
   }
 }
 
+// referee  the difference quotient: weight times residual is the slope of the -log density
+TEST(Densities, WeightResidualsByTheSlope) {
+  const double h = 1e-5;
+  for (const double e : {-3.0, 0.2, 8.0}) {
+    const double slope = (student_log_density(e - h, 1, 3.5) - student_log_density(e + h, 1, 3.5)) / (2 * h);
+    EXPECT_NEAR(student_weight(e, 3.5) * e, slope, 1e-8);
+    EXPECT_EQ(student_weight(e, 0), 1) << "a normal error";
+  }
+}
+
 }  // namespace
 }  // namespace mote

@@ -11,7 +11,16 @@ Doa framed(std::size_t frame) {
   return model;
 }
 
+Doa repeating(std::size_t frame, double correlation, double dof) {
+  Doa model = framed(frame);
+  model.p.correlation = correlation;
+  model.p.dof = dof;
+  return model;
+}
+
 MOTE_MODEL_LAWS(Doa, framed(6))
+MOTE_MODEL_LAWS(DoaCorrelated, repeating(6, 0.85, 0))
+MOTE_MODEL_LAWS(DoaStudent, repeating(6, 0.85, 4))
 
 TEST(Doa, KeepsTheQuadrantOfTheUndisturbedDirection) {
   const Doa model;
@@ -46,9 +55,30 @@ TEST(Doa, ThetaDensityIntegratesToOne) {
   EXPECT_NEAR(mass, 1, 1e-4);
 }
 
+// A frame of n equal errors with correlation c is one error of variance sigma_o^2 (1 + (n - 1) c) / n, whatever the
+// rest.
+TEST(Doa, AFrameOfRepeatedErrorsTellsLessThanItsLength) {
+  const Doa model = repeating(6, 0.85, 0);
+  const Row<double> y = Row<double>::of({0.1, 0.2, 0.3, 0.1, 0.2, 0.3});
+  const double mean_variance = 0.05 * 0.05 * (1 + 5 * 0.85) / 6;
+  const auto at = [&](double theta) { return model.log_likelihood<double>(1, {theta, 0, 0}, y); };
+  EXPECT_NEAR(at(0.25) - at(0.2), -0.5 * 0.05 * 0.05 / mean_variance, 1e-9);
+  const Row<double> twice{{0.1, kNaN, 0.3, kNaN, kNaN, kNaN}, {true, false, true, false, false, false}};
+  const double two = 0.05 * 0.05 * (1 + 0.85) / 2;
+  const auto seen = [&](double theta) { return model.log_likelihood<double>(1, {theta, 0, 0}, twice); };
+  EXPECT_NEAR(seen(0.25) - seen(0.2), -0.5 * 0.05 * 0.05 / two, 1e-9) << "fields that are not seen do not count";
+}
+
+TEST(Doa, OneDirectionIsTheUnivariateDensity) {
+  const Row<double> y = Row<double>::of({0.3});
+  EXPECT_NEAR((repeating(1, 0.5, 4).log_likelihood<double>(1, {0.2, 0, 0}, y)), student_log_density(0.1, 0.05, 4),
+              1e-12);
+  EXPECT_NEAR((repeating(1, 0.5, 0).log_likelihood<double>(1, {0.2, 0, 0}, y)), normal_log_density(0.1, 0.0025), 1e-12);
+}
+
 TEST(Doa, WrapsTheResidual) {
   const Doa model = framed(1);
-  const double near = model.log_likelihood<double>(1, {kPi - 0.01, 0, 0}, Row<double>::of({-kPi + 0.01}));
+  const auto near = model.log_likelihood<double>(1, {kPi - 0.01, 0, 0}, Row<double>::of({-kPi + 0.01}));
   EXPECT_NEAR(near, normal_log_density(0.02, 0.0025), 1e-9);
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "mote/model/densities.hpp"
+#include "mote/model/guided.hpp"
 #include "mote/model/model.hpp"
 #include "mote/model/parameter.hpp"
 
@@ -23,7 +24,8 @@ struct LocalLevel {
   using Parameters = LocalLevelParameters;
   template <class S>
   using State = std::array<S, 1>;
-  using Proposals = std::tuple<Prior, LocalLevelOptimal>;
+  using Proposals = std::tuple<Prior, LocalLevelOptimal, Guided>;
+  static constexpr std::size_t kNoise = 1;
 
   static constexpr std::array<Parameter<Parameters>, 4> kParameters{{
       {"var_level", &Parameters::var_level, Range::kNotNegative, "", "variance of the level's step"},
@@ -54,6 +56,14 @@ struct LocalLevel {
   template <class S>
   S log_transition(Step, const State<S>& x, const State<S>& before) const {
     return normal_log_density(x[0] - before[0], p.var_level);
+  }
+  template <class S>
+  std::array<S, kNoise> noise(Step, const State<S>& x, const State<S>& before) const {
+    return {(x[0] - before[0]) * S(1 / std::sqrt(p.var_level))};
+  }
+  template <class S, class Add>
+  void innovations(Step, const State<S>& x, const Row<S>& y, Add add) const {
+    if (y.seen(0)) add((y[0] - x[0]) * S(1 / std::sqrt(p.var_obs)), S(1));
   }
   template <class S, class D>
   Row<S> observe(Step, const State<S>& x, const Row<S>&, D& draw) const {

@@ -6,7 +6,7 @@
 namespace mote {
 
 /// The values a parameter may take.
-enum class Range { kAny, kPositive, kNotNegative };
+enum class Range { kAny, kPositive, kNotNegative, kFraction };  // kFraction: at least 0, below 1
 
 /// One parameter of a model: its name, where it lives in the struct, what it means.
 template <class P>

@@ -173,7 +173,9 @@ TEST(Models, AreTheCatalogueOfTheDesign) {
         {"sd_vx", 0.002},
         {"sd_y", 0.02},
         {"sd_vy", 0.002},
-        {"dof", 0}}},
+        {"dof", 0},
+        {"correlation", 0},
+        {"distortion", 0}}},
       {"doa",
        {{"sigma_theta", 0.02},
         {"sigma_q", 0.005},
@@ -184,7 +186,9 @@ TEST(Models, AreTheCatalogueOfTheDesign) {
         {"phi0", 0.8},
         {"sd_theta", 0.2},
         {"sd_q", 0.02},
-        {"sd_phi", 0.3}}},
+        {"sd_phi", 0.3},
+        {"correlation", 0},
+        {"dof", 0}}},
       {"local-level", {{"var_level", 1469.1}, {"var_obs", 15099}, {"level0", 1120}, {"p0", 1e5}}}};
   std::set<std::string> seen;
   for (const Json& model : models) {

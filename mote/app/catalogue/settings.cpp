@@ -18,6 +18,8 @@ std::string words_for(Range range) {
       return "a number above 0";
     case Range::kNotNegative:
       return "a number of at least 0";
+    case Range::kFraction:
+      return "a number of at least 0 and below 1";
   }
   return "";
 }
@@ -53,7 +55,8 @@ double Settings::number(const std::string& key, double fallback, Range range) co
   if (!given) return fallback;
   const auto value = number_in(*given);
   const bool fits = value && std::isfinite(*value) &&
-                    (range == Range::kAny || *value > 0 || (range == Range::kNotNegative && *value == 0));
+                    (range == Range::kAny || *value > 0 || (range != Range::kPositive && *value == 0)) &&
+                    (range != Range::kFraction || *value < 1);
   if (!fits)
     throw Refusal(ExitCode::kWrongUse, {where_, "--set " + key, words_for(range), "\"" + *given + "\"",
                                         fmt::format("Its default is {}.", fallback)});

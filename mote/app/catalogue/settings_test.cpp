@@ -24,6 +24,9 @@ TEST(Settings, RefuseWhatIsOutOfRange) {
     EXPECT_THROW(settings({"q=" + bad}).number("q", 1, Range::kPositive), Refusal) << bad;
   EXPECT_EQ(settings({"q=0"}).number("q", 1, Range::kNotNegative), 0);
   EXPECT_EQ(settings({"q=-1"}).number("q", 1), -1);
+  for (const std::string bad : {"-0.1", "1", "2"})
+    EXPECT_THROW(settings({"q=" + bad}).number("q", 0, Range::kFraction), Refusal) << bad;
+  EXPECT_EQ(settings({"q=0"}).number("q", 0.5, Range::kFraction), 0);
   for (const std::string bad : {"", "0", "3", "1.5", "1e0"})
     EXPECT_THROW(settings({"n=" + bad}).integer("n", 1, 1, 2), Refusal) << bad;
 }
