@@ -46,8 +46,7 @@ double summary_figure(const Summary& summary, const std::string& key) {
 
 Laboratory::Laboratory(Item item) : item_(std::move(item)) {
   const Source& from = item_.recording;
-  for (int m = 1; m <= from.columns; ++m) header_.push_back("doa" + std::to_string(m));
-  if (!from.simulated()) header_ = read_table(from.observations).header;
+  header_ = from.simulated() ? frame_header(from.columns) : read_table(from.observations).header;
   source_ = model_with(from.settings, from.where);
   states_ = source_->states();
   for (const Run& run : item_.runs) benches_.emplace(run.name, bench_for(run));
@@ -110,7 +109,7 @@ std::size_t Laboratory::work() const {
   return runs;
 }
 
-const Laboratory::Scene& Laboratory::scene(std::uint64_t offset) {
+const Scene& Laboratory::scene(std::uint64_t offset) {
   if (!item_.recording.simulated()) offset = 0;
   const auto [found, fresh] = scenes_.try_emplace(offset);
   if (!fresh) return found->second;
@@ -121,15 +120,7 @@ const Laboratory::Scene& Laboratory::scene(std::uint64_t offset) {
     if (!from.truth.empty()) scene.truth = truth_from(read_table(from.truth), states_);
     return scene;
   }
-  for (const Column& column : source_->columns())
-    if (!column.input) scene.recording.observations.push_back(column);
-  scene.truth.known.assign(states_.size(), true);
-  source_->simulate(from.steps, from.seed + offset, [&](Step t, std::span<const double> state, const Row<double>& row) {
-    scene.recording.steps.push_back({t, {row}});
-    scene.truth.states[t].assign(state.begin(), state.end());
-    return true;
-  });
-  return scene;
+  return scene = simulated_scene(*source_, from.steps, from.seed + offset);
 }
 
 const RunRecord& Laboratory::record(const std::string& run, std::uint64_t recording_offset, std::uint64_t seed_offset) {

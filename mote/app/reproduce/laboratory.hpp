@@ -6,6 +6,7 @@
 #include <memory>
 #include <tuple>
 
+#include "mote/app/catalogue/scene.hpp"
 #include "mote/app/commands/job.hpp"
 #include "mote/app/reproduce/item.hpp"
 #include "mote/app/reproduce/statistics.hpp"
@@ -47,10 +48,6 @@ class Laboratory {
   Outcome regenerate(const std::function<void()>& ran);
 
  private:
-  struct Scene {
-    Recording recording;
-    Truth truth;
-  };
   struct Bench {
     Job job;
     Plan plan;

@@ -93,7 +93,8 @@ function lineSeries(item, points, colours) {
     silent: true,
     data: withLonelyDots(points, 5),
     step: item.mark === "steps" ? "end" : false,
-    symbol: "none",
+    symbol: item.mark === "marked" ? "circle" : "none",
+    symbolSize: 7,
     showSymbol: true,
     showAllSymbol: true,
     connectNulls: false,
@@ -119,7 +120,7 @@ function pointSeries(item, points, colours) {
   };
 }
 
-const seriesOf = { band: bandSeries, points: pointSeries, line: lineSeries, steps: lineSeries };
+const seriesOf = { band: bandSeries, points: pointSeries, line: lineSeries, steps: lineSeries, marked: lineSeries };
 
 /**
  * chart: prepared; shown: [{item, points}]; full, window: {x, y} ranges; size: of the whole canvas; tooltip: ours.

@@ -13,6 +13,8 @@ const signs = {
   points: '<circle cx="6" cy="7" r="3" fill="currentColor"/><circle cx="17" cy="7" r="3" fill="currentColor"/>',
   steps: '<path d="M1 11H9V3H17V8H23" fill="none" stroke="currentColor" stroke-width="2"/>',
   line: '<path d="M1 7H23" stroke="currentColor" stroke-width="2.5"/>',
+  marked:
+    '<path d="M1 7H23" stroke="currentColor" stroke-width="2.5"/><circle cx="12" cy="7" r="3.5" fill="currentColor"/>',
   truth: '<path d="M1 7H23" stroke="currentColor" stroke-width="2" stroke-dasharray="6 3"/>',
 };
 
