@@ -117,6 +117,13 @@ std::vector<std::vector<std::string>> cells_of(const Outcome& outcome) {
   return cells;
 }
 
+/// An interval that a page does not break into lines.
+std::string unbroken(std::string cell) {
+  if (!cell.ends_with(']')) return cell;
+  for (std::size_t at = 0; (at = cell.find(' ', at)) != std::string::npos;) cell.replace(at, 1, "\u00a0");
+  return cell;
+}
+
 /// JSON has no infinities: null stands for "not a number".
 json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
@@ -262,6 +269,8 @@ report::Page comparison_page(const Outcome& outcome) {
                 {"Reference", d.reference.name.empty() ? "none; errors are to the truth" : d.reference.name}};
   page.charts = {chart_of(outcome)};
   auto cells = cells_of(outcome);
+  for (auto& row : cells)
+    for (std::string& cell : row) cell = unbroken(std::move(cell));
   page.tables = {{.title = "Filters by number of particles", .columns = cells.front()}};
   page.tables.front().rows.assign(cells.begin() + 1, cells.end());
   page.notes = notes_of(outcome);
