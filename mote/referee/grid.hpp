@@ -71,7 +71,7 @@ class Grid {
     for (std::size_t j = 0; j < points_; ++j) {
       const double centre = model_.drift(t, at(j));
       const double lowest = std::floor((centre - reach + edge_) / step_);
-      const double most = static_cast<double>(points_ - made.width);
+      const auto most = static_cast<double>(points_ - made.width);
       made.first.push_back(static_cast<std::size_t>(std::clamp(lowest, 0.0, most)));
       for (std::size_t i = 0; i < made.width; ++i)
         made.density.push_back(

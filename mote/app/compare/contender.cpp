@@ -89,7 +89,7 @@ Plan reference_plan(const std::string& text, const std::string& where, std::vect
   const std::string place = where + ": --reference: " + text;
   return with_arguments(words_of(text), place, [&](const Arguments& given) {
     refuse_own(given, "--seed");
-    const Plan plan = plan_from(given);
+    Plan plan = plan_from(given);
     for (const std::string& note : notes_on_unread(given, plan)) notes.push_back(said_at(place, note));
     return plan;
   });

@@ -43,13 +43,14 @@ double median(std::vector<double> values) {
 
 double pooled_deviation(std::span<const double> values, std::size_t each) {
   double squares = 0;
+  double freedom = 0;
   for (std::size_t first = 0; first < values.size(); first += each) {
     const auto group = values.subspan(first, each);
     const double middle = mean(group);
     for (const double v : group) squares += (v - middle) * (v - middle);
+    freedom += static_cast<double>(each - 1);
   }
-  const auto groups = static_cast<double>(values.size() / each);
-  return std::sqrt(squares / (groups * static_cast<double>(each - 1)));
+  return std::sqrt(squares / freedom);
 }
 
 Interval bootstrap(const Sampling& sampling, const Statistic& statistic, double level) {
