@@ -247,7 +247,7 @@ std::vector<std::vector<std::vector<Measured>>> run_study(const Design& design, 
     for (std::size_t r = 0; r < design.repeats; ++r)
       for (std::size_t size = 0; size < design.particles.size(); ++size)
         for (std::size_t turn = 0; turn < count; ++turn) {
-          const std::size_t c = (turn + r) % count;
+          const std::size_t c = (turn + k + r) % count;
           Plan plan = design.contenders[c].plans[size];
           plan.seed = design.seed_of(k, r);
           all[c][size].push_back(measured_run(design, job, c, plan, k, stop));
