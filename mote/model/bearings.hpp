@@ -107,9 +107,10 @@ struct Bearings {
 
   template <class S>
   S log_likelihood(Step, const State<S>& x, const Row<S>& y) const {
+    const NormalDensity normal(scale() * scale());
     if (!y.seen(0)) return S(0);
     const S residual = error(x, y);
-    return p.dof > 0 ? student_log_density(residual, scale(), p.dof) : normal_log_density(residual, scale() * scale());
+    return p.dof > 0 ? student_log_density(residual, scale(), p.dof) : normal.log(residual);
   }
 
   /// Scale of one bearing error, in rad, widened for errors that repeat: sigma_r sqrt((1 + c) / (1 - c)).

@@ -97,10 +97,11 @@ struct Doa {
   template <class S>
   S log_likelihood(Step, const State<S>& x, const Row<S>& y) const {
     using namespace numbers;
+    const NormalDensity error(p.sigma_o * p.sigma_o);
     if (p.correlation > 0 || p.dof > 0) return joint_log_likelihood(x[0], y);
     S sum = S(0);
     for (std::size_t m = 0; m < frame; ++m)
-      if (y.seen(m)) sum = sum + normal_log_density(wrap(y[m] - x[0]), p.sigma_o * p.sigma_o);
+      if (y.seen(m)) sum = sum + error.log(wrap(y[m] - x[0]));
     return sum;
   }
 

@@ -69,7 +69,7 @@ using Rows = std::span<const Row<S>>;
 
 /// The state of a model whose size is known at run time only.
 template <class S>
-using SmallVector = boost::container::small_vector<S, 8>;
+using SmallVector = boost::container::small_vector<S, 8, std::allocator<S>>;  // it aligns vectors of numbers
 
 /// In which space log_transition is a density.
 enum class Density {

@@ -36,6 +36,8 @@ std::string_view name_of(Series::Mark mark) {
       return "points";
     case Series::Mark::kSteps:
       return "steps";
+    case Series::Mark::kMarkedLine:
+      return "marked";
     case Series::Mark::kLine:
       break;
   }

@@ -20,13 +20,15 @@ TEST(ChartJson, CarriesEveryPartOfAChart) {
                              .bands = {{"estimate ± 2 sd", {1, 2}, {0, 1}, {2, 3}}},
                              .series = {{"estimate", Series::Mark::kLine, {1, 2}, {1, 2}},
                                         {"observed", Series::Mark::kPoints, {1}, {1.5}},
-                                        {"mode", Series::Mark::kSteps, {1}, {0}}},
+                                        {"mode", Series::Mark::kSteps, {1}, {0}},
+                                        {"study", Series::Mark::kMarkedLine, {1}, {0}}},
                              .log_y = true});
   EXPECT_EQ(json["title"], "Level");
   EXPECT_EQ(json["bands"][0]["high"], nlohmann::json({2, 3}));
   EXPECT_EQ(json["series"][0]["mark"], "line");
   EXPECT_EQ(json["series"][1]["mark"], "points");
   EXPECT_EQ(json["series"][2]["mark"], "steps");
+  EXPECT_EQ(json["series"][3]["mark"], "marked");
   EXPECT_EQ(json["log_x"], false);
   EXPECT_EQ(json["log_y"], true);
   EXPECT_EQ(json["equal_axes"], false);

@@ -11,7 +11,8 @@ namespace mote::report {
 /// One named sequence of points. NaN or infinite values are gaps: a line breaks there, a point is left out.
 /// A series named "truth" is drawn apart from the others (dashed, in the colour of the text).
 struct Series {
-  enum class Mark { kLine, kPoints, kSteps };  ///< kSteps: the value holds until the next x
+  /// kSteps: the value holds until the next x; kMarkedLine: a line whose points are seen
+  enum class Mark { kLine, kPoints, kSteps, kMarkedLine };
   std::string name;
   Mark mark = Mark::kLine;
   std::vector<double> x = {}, y = {};

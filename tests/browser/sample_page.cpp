@@ -86,7 +86,7 @@ Chart error_chart() {
           .y_label = "rmse",
           .series = {{"bootstrap", Series::Mark::kLine, particles, falling(9)},
                      {"auxiliary", Series::Mark::kLine, particles, falling(5)},
-                     {"independent Metropolis–Hastings", Series::Mark::kLine, particles, falling(3)},
+                     {"independent Metropolis–Hastings", Series::Mark::kMarkedLine, particles, falling(3)},
                      {"EKF", Series::Mark::kPoints, {10, 1000}, {4, 0}}},
           .log_x = true,
           .log_y = true};

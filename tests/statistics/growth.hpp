@@ -2,7 +2,7 @@
 /// The growth model against its exact posterior: paired errors of filters over many recordings.
 
 #include "mote/model/ungm.hpp"
-#include "tests/referees/grid.hpp"
+#include "mote/referee/grid.hpp"
 #include "tests/statistics/makers.hpp"
 
 namespace mote::statistics {

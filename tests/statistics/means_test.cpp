@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tests/referees/kalman.hpp"
+#include "mote/referee/kalman.hpp"
 #include "tests/statistics/linear_models.hpp"
 #include "tests/statistics/makers.hpp"
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "tests/referees/grid.hpp"
-#include "tests/referees/kalman.hpp"
+#include "mote/referee/grid.hpp"
+#include "mote/referee/kalman.hpp"
 #include "tests/statistics/linear_models.hpp"
 
 namespace mote::statistics {

@@ -12,6 +12,7 @@
 #include "mote/engine/estimand.hpp"
 #include "mote/engine/plan.hpp"
 #include "mote/filter/filter.hpp"
+#include "mote/referee/solver.hpp"
 
 namespace mote {
 
@@ -32,6 +33,8 @@ class CatalogueModel {
   virtual std::vector<Column> columns() const = 0;
   virtual std::vector<ValueSource> sources() const = 0;
   virtual std::unique_ptr<Filter> reference_filter(const Plan& plan, const std::string& where) const = 0;
+  /// What solves the model's recordings exactly; nullptr: nothing known.
+  virtual std::unique_ptr<referee::Solver> solver() const = 0;
   /// Draws a recording step by step, in no more memory than a step needs.
   virtual void simulate(Step steps, std::uint64_t seed, const SimulationVisit& visit) const = 0;
   /// Draws a whole recording.

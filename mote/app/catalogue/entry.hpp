@@ -17,6 +17,7 @@ class CatalogueModelOf final : public CatalogueModel {
   std::unique_ptr<Filter> reference_filter(const Plan& plan, const std::string& where) const override {
     return make_reference_filter(model_, plan, where);
   }
+  std::unique_ptr<referee::Solver> solver() const override { return referee::solver_of(model_); }
 
   using CatalogueModel::simulate;
   void simulate(Step steps, std::uint64_t seed, const SimulationVisit& visit) const override {

@@ -251,7 +251,8 @@ int run_program(int count, char** words) {
   program.get_formatter()->column_width(38);
   std::vector<std::unique_ptr<Bound>> commands;
   std::vector<std::string> names;
-  for (Command command : {models_command(), simulate_command(), run_command(), reproduce_command()}) {
+  for (Command command :
+       {models_command(), simulate_command(), run_command(), compare_command(), reproduce_command()}) {
     commands.push_back(std::make_unique<Bound>());
     names.push_back(command.name);
     commands.back()->command = std::move(command);

@@ -78,6 +78,7 @@ Arguments arguments_from(const std::string& where, const std::vector<OptionSpec>
 Command models_command();
 Command simulate_command();
 Command run_command();
+Command compare_command();
 Command reproduce_command();
 
 /// Parses and runs: what main() returns.

@@ -12,7 +12,7 @@ namespace mote {
 
 struct Job {
   std::string model_name, data_path, command;
-  std::unique_ptr<CatalogueModel> model;
+  std::shared_ptr<const CatalogueModel> model;
   Recording recording;
   std::optional<Truth> truth;
   std::vector<std::string> notes;  ///< columns that nobody reads

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "mote/app/catalogue/catalogue.hpp"
+#include "mote/app/catalogue/scene.hpp"
 #include "mote/app/commands/command.hpp"
 #include "mote/app/files/output.hpp"
 #include "mote/app/terminal/progress.hpp"
@@ -11,14 +11,6 @@ namespace {
 
 constexpr long long kMostSteps = 10'000'000;
 constexpr long long kMostColumns = 4096;
-
-/// The header that a model sizes itself by: for doa, as many columns as asked for.
-std::vector<std::string> asked_columns(const Arguments& arguments) {
-  std::vector<std::string> header;
-  for (long long m = 1; m <= arguments.integer("--columns", 1, kMostColumns); ++m)
-    header.push_back("doa" + std::to_string(m));
-  return header;
-}
 
 template <class Names>
 std::string header_of(const Names& names) {
@@ -43,7 +35,7 @@ std::string note_on_columns(const Arguments& arguments, const CatalogueModel& mo
 
 ExitCode run_simulate(const Arguments& arguments) {
   const CatalogueEntry& entry = find_model(arguments.text("MODEL"), arguments.where());
-  const auto header = asked_columns(arguments);
+  const auto header = frame_header(arguments.integer("--columns", 1, kMostColumns));
   const auto model = entry.make(Settings(arguments.where(), arguments.list("--set")), header);
   const auto steps = static_cast<Step>(arguments.integer("--steps", 1, kMostSteps));
   const auto seed = static_cast<std::uint64_t>(arguments.integer("--seed", 0, 9223372036854775807LL));

@@ -7,6 +7,7 @@
 
 #include "mote/app/catalogue/catalogue.hpp"
 #include "mote/app/commands/plan_options.hpp"
+#include "mote/app/compare/contender.hpp"
 #include "mote/app/terminal/suggestion.hpp"
 #include "mote/base/refusal.hpp"
 #include "mote/engine/estimand.hpp"
@@ -51,6 +52,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
   });
   attempt([&] { mote::plan_from(mote::arguments_from("fuzz", options, words)); });
+  attempt([&] {
+    std::vector<std::string> notes;
+    mote::compare::contenders_from(text, {10}, "fuzz", notes);
+  });
   mote::nearest(text, {"sisr", "imh", "auxiliary"});
   return 0;
 }

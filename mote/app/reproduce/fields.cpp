@@ -105,6 +105,19 @@ std::vector<std::string> Fields::texts(std::string_view key) {
   return out;
 }
 
+std::vector<double> Fields::numbers(std::string_view key) {
+  const toml::node* node = take(key);
+  std::vector<double> out;
+  if (node == nullptr) return out;
+  if (!node->is_array()) refuse(key, "a list of numbers");
+  for (const auto& element : *node->as_array()) {
+    const auto value = element.is_number() ? element.value<double>() : std::nullopt;
+    if (!value || !std::isfinite(*value)) refuse(key, "a list of finite numbers");
+    out.push_back(*value);
+  }
+  return out;
+}
+
 std::vector<Fields> Fields::tables(std::string_view key) {
   const toml::node* node = take(key);
   std::vector<Fields> out;

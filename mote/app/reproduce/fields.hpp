@@ -36,6 +36,8 @@ class Fields {
   /// Whether a key that may be a number or a text holds a number.
   bool is_number(std::string_view key) const;
   std::vector<std::string> texts(std::string_view key);
+  /// A list of finite numbers; none without the key.
+  std::vector<double> numbers(std::string_view key);
   /// The place of a word among the choices, the first by default.
   template <class Choices>
   std::size_t choice(std::string_view key, const Choices& choices) {

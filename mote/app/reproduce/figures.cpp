@@ -79,11 +79,30 @@ void draw_over_time(Chart& chart, const Figure& figure, const Outcome& outcome) 
   for (const Step t : outcome.times) add(truth, t, truth_at(outcome, t, d), state.angle);
 }
 
+/// Error against time at one level of ESS, a point for each run.
+void draw_tradeoff(Chart& chart, const Figure& figure, const Outcome& outcome) {
+  chart.x_label = "ns a draw";
+  chart.y_label = "error (multinomial variances)";
+  chart.log_x = chart.log_y = true;
+  for (const Tradeoff& t : outcome.tradeoffs)
+    if (t.ess == figure.ess && draws(figure, t.run))
+      chart.series.push_back({.name = t.run, .mark = Series::Mark::kPoints, .x = {t.ns}, .y = {t.error}});
+}
+
+std::string tradeoff_csv(const Outcome& outcome) {
+  std::string csv = "run,ess,error,ns_per_draw\n";
+  for (const Tradeoff& t : outcome.tradeoffs)
+    csv += slug(t.run) + "," + exact(t.ess) + "," + exact(t.error) + "," + exact(t.ns) + "\n";
+  return csv;
+}
+
 }  // namespace
 
 Chart chart_of(const Item& item, const Figure& figure, const Outcome& outcome) {
   Chart chart{.title = item.paper + " " + item.name + ": " + figure.title};
-  if (figure.state.empty()) {
+  if (item.weights) {
+    draw_tradeoff(chart, figure, outcome);
+  } else if (figure.state.empty()) {
     draw_track(chart, figure, outcome);
   } else {
     draw_over_time(chart, figure, outcome);
@@ -92,6 +111,7 @@ Chart chart_of(const Item& item, const Figure& figure, const Outcome& outcome) {
 }
 
 std::string figure_csv(const Outcome& outcome) {
+  if (!outcome.tradeoffs.empty()) return tradeoff_csv(outcome);
   std::string csv = "t";
   for (const Quantity& state : outcome.states) csv += ",truth_" + state.name;
   for (const auto& [name, record] : outcome.records)

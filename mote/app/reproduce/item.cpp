@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -17,13 +18,17 @@ constexpr std::int64_t kMostSteps = 1'000'000;
 constexpr std::int64_t kMostRepeats = 10'000;
 
 /// Kinds in the order of the enumeration.
-constexpr std::array<std::string_view, 7> kKinds{"mean-difference", "mean-spread",     "rmse",   "normalised-error",
-                                                 "final-bias",      "evidence-spread", "summary"};
+constexpr std::array<std::string_view, 10> kKinds{"mean-difference", "mean-spread",     "rmse",    "normalised-error",
+                                                  "final-bias",      "evidence-spread", "summary", "resample-error",
+                                                  "resample-time",   "resample-cost"};
 constexpr std::array<std::string_view, 3> kUnits{"standard-error", "posterior-sd", "absolute"};
 constexpr std::array<std::string_view, 2> kMiddles{"mean", "median"};
 
-bool reads_state(Kind kind) { return kind != Kind::kEvidenceSpread && kind != Kind::kSummary; }
-bool averages(Kind kind) { return kind == Kind::kRmse || kind == Kind::kFinalBias || kind == Kind::kSummary; }
+bool resamples(Kind kind) { return kind >= Kind::kResampleError; }
+bool reads_state(Kind kind) { return kind != Kind::kEvidenceSpread && kind != Kind::kSummary && !resamples(kind); }
+bool averages(Kind kind) {
+  return kind == Kind::kRmse || kind == Kind::kFinalBias || kind == Kind::kSummary || resamples(kind);
+}
 
 Source simulated_from(Fields fields) {
   Source source{fields.where(), fields.text("model"), fields.texts("set")};
@@ -45,6 +50,27 @@ Source data_from(Fields fields, const std::string& path) {
   return source;
 }
 
+WeightSource weights_from(Fields fields) {
+  WeightSource source;
+  source.particles = static_cast<std::size_t>(fields.integer("particles", 2, 1'000'000, 1000));
+  source.ess = fields.numbers("ess");
+  const auto inside = [&](double e) { return e * static_cast<double>(source.particles) >= 1.5 && e <= 0.99; };
+  if (source.ess.empty() || !std::all_of(source.ess.begin(), source.ess.end(), inside))
+    fields.refuse("ess",
+                  fmt::format("a list of shares of N from {:g} to 0.99", 1.5 / static_cast<double>(source.particles)));
+  source.seed = static_cast<std::uint64_t>(fields.integer("seed", 0, INT64_MAX / 2, 1));
+  fields.finish();
+  return source;
+}
+
+/// The level of a figure or comparison: one of the item's.
+double level_from(Fields& fields, const WeightSource& weights) {
+  const auto level = fields.number("ess");
+  if (!level || std::find(weights.ess.begin(), weights.ess.end(), *level) == weights.ess.end())
+    fields.refuse("ess", fmt::format("one of {}", fmt::join(weights.ess, ", ")));
+  return *level;
+}
+
 Run run_from(Fields fields, const std::vector<Run>& others) {
   Run run{fields.where(), fields.text("name"), fields.texts("options"), fields.texts("set")};
   if (std::any_of(others.begin(), others.end(), [&](const Run& r) { return slug(r.name) == slug(run.name); }))
@@ -59,11 +85,17 @@ void check_names(const Fields& fields, const std::vector<std::string>& names, co
       fields.refuse("runs", "names of the item's runs");
 }
 
-Figure figure_from(Fields fields, const std::vector<Run>& runs) {
-  Figure figure{fields.where(), fields.text("title"), fields.text_or("state", ""), fields.yes("error")};
+Figure figure_from(Fields fields, const Item& item) {
+  Figure figure{fields.where(), fields.text("title")};
+  if (item.weights) {
+    figure.ess = level_from(fields, *item.weights);
+  } else {
+    figure.state = fields.text_or("state", "");
+    figure.error = fields.yes("error");
+  }
   if (figure.error && figure.state.empty()) fields.refuse("error", "a state whose error is drawn");
   figure.runs = fields.texts("runs");
-  check_names(fields, figure.runs, runs);
+  check_names(fields, figure.runs, item.runs);
   fields.finish();
   return figure;
 }
@@ -91,13 +123,20 @@ void read_condition(Fields& fields, Comparison& c) {
   if (!c.at_least && !c.at_most && !c.within) fields.refuse("at_most", "at_least, at_most or within: when it holds");
 }
 
-Comparison comparison_from(Fields fields, const std::vector<Run>& runs) {
+/// The kind, of those that the item's source can answer.
+Kind kind_from(Fields& fields, bool weights) {
+  const auto known = std::span(kKinds).subspan(weights ? 7 : 0, weights ? 3 : 7);
+  if (!fields.has("kind")) fields.refuse("kind", fmt::format("one of {}", fmt::join(known, ", ")));
+  return static_cast<Kind>(fields.choice("kind", known) + (weights ? 7 : 0));
+}
+
+Comparison comparison_from(Fields fields, const Item& item) {
   Comparison c;
   c.where = fields.where();
   c.name = fields.text("name");
-  if (!fields.has("kind")) fields.refuse("kind", fmt::format("one of {}", fmt::join(kKinds, ", ")));
-  c.kind = static_cast<Kind>(fields.choice("kind", kKinds));
-  read_runs(fields, runs, c);
+  c.kind = kind_from(fields, item.weights.has_value());
+  read_runs(fields, item.runs, c);
+  if (item.weights) c.ess = level_from(fields, *item.weights);
   if (reads_state(c.kind)) c.state = fields.text("state");
   if (c.kind == Kind::kSummary) c.key = kSummaryKeys[fields.choice("key", kSummaryKeys)];
   if (c.kind == Kind::kMeanDifference) c.unit = static_cast<Comparison::Unit>(fields.choice("unit", kUnits));
@@ -122,13 +161,15 @@ Item read_item(const std::string& path, const std::string& paper) {
   item.source = fields.text("source");
   item.printed = fields.text("printed");
   item.note = fields.text_or("note", "");
-  if (fields.has("simulate") == fields.has("data")) fields.refuse("simulate", "a table [simulate] or a table [data]");
-  item.recording =
-      fields.has("data") ? data_from(fields.table("data"), path) : simulated_from(fields.table("simulate"));
+  if (fields.has("simulate") + fields.has("data") + fields.has("weights") != 1)
+    fields.refuse("simulate", "one of the tables [simulate], [data] and [weights]");
+  if (fields.has("weights")) item.weights = weights_from(fields.table("weights"));
+  if (fields.has("data")) item.recording = data_from(fields.table("data"), path);
+  if (fields.has("simulate")) item.recording = simulated_from(fields.table("simulate"));
   for (const Fields& table : fields.tables("run")) item.runs.push_back(run_from(table, item.runs));
   if (item.runs.empty()) fields.refuse("run", "at least one table [[run]]");
-  for (const Fields& table : fields.tables("figure")) item.figures.push_back(figure_from(table, item.runs));
-  for (const Fields& table : fields.tables("compare")) item.comparisons.push_back(comparison_from(table, item.runs));
+  for (const Fields& table : fields.tables("figure")) item.figures.push_back(figure_from(table, item));
+  for (const Fields& table : fields.tables("compare")) item.comparisons.push_back(comparison_from(table, item));
   fields.finish();
   return item;
 }
@@ -136,6 +177,7 @@ Item read_item(const std::string& path, const std::string& paper) {
 std::string meaning_of(const Comparison& c) {
   constexpr std::array<std::string_view, 3> kIn{
       ", in Monte-Carlo standard errors of that difference (1 = none to be seen)", ", in posterior deviations", ""};
+  const std::string weights = fmt::format(", {} over weight vectors", kMiddles[c.median ? 1 : 0]);
   const std::string over = fmt::format(", {} over recordings", kMiddles[c.median ? 1 : 0]);
   switch (c.kind) {
     case Kind::kMeanDifference:
@@ -155,6 +197,14 @@ std::string meaning_of(const Comparison& c) {
       return "Spread of the log evidence: its deviation over repeats on one recording (nat)";
     case Kind::kSummary:
       return "Figure of a run's summary" + over;
+    case Kind::kResampleError:
+      return "Error of resampling: mean square of resampled minus weighted mean, in exact variances of multinomial "
+             "draws" +
+             weights;
+    case Kind::kResampleTime:
+      return "Time of resampling: ns per draw" + weights;
+    case Kind::kResampleCost:
+      return "Cost of resampling: its error times its time" + weights;
   }
   return "";
 }

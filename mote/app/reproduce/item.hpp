@@ -9,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "mote/app/reproduce/resampling.hpp"
+
 namespace mote::reproduce {
 
 /// What an item's runs filter: a simulated recording ([simulate]) or files ([data]).
@@ -43,6 +45,9 @@ struct Comparison {
     kFinalBias,        ///< mean - truth at the last step
     kEvidenceSpread,   ///< standard deviation of the log evidence over repeats on one recording
     kSummary,          ///< a figure of the run's summary
+    kResampleError,    ///< on given weights: mean square error of the resampled mean, in multinomial variances
+    kResampleTime,     ///< on given weights: nanoseconds per draw
+    kResampleCost,     ///< the product of both: what halves when a scheme needs half the draws or half the time
   };
   /// What a mean difference is measured in.
   enum class Unit { kStandardError, kPosteriorSd, kAbsolute };
@@ -53,6 +58,7 @@ struct Comparison {
   std::vector<std::string> runs;
   std::string state;                 ///< a state, or "position" for the RMSE of x and y together
   std::string key;                   ///< of the summary
+  double ess = 0;                    ///< level of the weights
   Unit unit = Unit::kStandardError;  ///< of a mean difference
   bool median = false;               ///< over the repeats, instead of the mean
   int repeats = 20;
@@ -66,15 +72,17 @@ struct Comparison {
 struct Figure {
   std::string where;
   std::string title;
-  std::string state;                   ///< drawn over time with the truth; empty: the track in the plane
+  std::string state = {};              ///< drawn over time with the truth; empty: the track in the plane
   bool error = false;                  ///< draw |mean - truth| instead
   std::vector<std::string> runs = {};  ///< drawn; empty: all
+  double ess = 0;                      ///< of an item on weights: error against time at this level
 };
 
 /// One item.
 struct Item {
   std::string file, paper, name, title, source, printed, note;
-  Source recording;
+  Source recording;                     ///< of an item without weights
+  std::optional<WeightSource> weights;  ///< resamplers on given weights, instead of filters on a recording
   std::vector<Run> runs;
   std::vector<Figure> figures;
   std::vector<Comparison> comparisons;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "mote/app/commands/plan_options.hpp"
+#include "mote/app/compare/statistics.hpp"
 #include "mote/app/files/recording_file.hpp"
 #include "mote/app/terminal/signals.hpp"
 #include "mote/base/refusal.hpp"
@@ -34,6 +35,13 @@ bool needs_truth(Kind kind) {
   return kind == Kind::kRmse || kind == Kind::kNormalisedError || kind == Kind::kFinalBias;
 }
 
+/// Resamplings of one weight vector.
+constexpr std::size_t kResamplings = 200;
+
+void refuse_when_stopped() {
+  if (stop_flag()) throw Refusal(ExitCode::kInterrupted, "mote reproduce: interrupted; no file was written.");
+}
+
 double summary_figure(const Summary& summary, const std::string& key) {
   if (key == "log_evidence") return summary.log_evidence;
   if (key == "mean_ess") return summary.mean_ess;
@@ -45,9 +53,12 @@ double summary_figure(const Summary& summary, const std::string& key) {
 }  // namespace
 
 Laboratory::Laboratory(Item item) : item_(std::move(item)) {
+  if (item_.weights) {
+    for (const Run& run : item_.runs) benches_.emplace(run.name, bench_for(run));
+    return;
+  }
   const Source& from = item_.recording;
-  for (int m = 1; m <= from.columns; ++m) header_.push_back("doa" + std::to_string(m));
-  if (!from.simulated()) header_ = read_table(from.observations).header;
+  header_ = from.simulated() ? frame_header(from.columns) : read_table(from.observations).header;
   source_ = model_with(from.settings, from.where);
   states_ = source_->states();
   for (const Run& run : item_.runs) benches_.emplace(run.name, bench_for(run));
@@ -63,10 +74,15 @@ std::unique_ptr<CatalogueModel> Laboratory::model_with(const std::vector<std::st
 
 Laboratory::Bench Laboratory::bench_for(const Run& run) const {
   Bench bench;
+  const auto plan = [&] { return plan_from(arguments_from(run.where, plan_options(), run.options)); };
+  if (item_.weights) {
+    bench.plan = as_bad_data(plan);
+    return bench;
+  }
   bench.job.model_name = item_.recording.model;
   bench.job.model = model_with(merged(item_.recording.settings, run.settings), run.where);
   as_bad_data([&] {
-    bench.plan = plan_from(arguments_from(run.where, plan_options(), run.options));
+    bench.plan = plan();
     return bench.job.model->reference_filter(bench.plan, run.where);  // refuses what the model does not have
   });
   return bench;
@@ -104,13 +120,13 @@ void Laboratory::check_comparisons() const {
 }
 
 std::size_t Laboratory::work() const {
-  std::size_t runs = item_.runs.size();
+  std::size_t runs = item_.weights ? 0 : item_.runs.size();
   for (const Comparison& c : item_.comparisons)
     runs += (c.kind == Kind::kNormalisedError ? 1 : c.runs.size()) * static_cast<std::size_t>(c.repeats);
   return runs;
 }
 
-const Laboratory::Scene& Laboratory::scene(std::uint64_t offset) {
+const Scene& Laboratory::scene(std::uint64_t offset) {
   if (!item_.recording.simulated()) offset = 0;
   const auto [found, fresh] = scenes_.try_emplace(offset);
   if (!fresh) return found->second;
@@ -121,20 +137,11 @@ const Laboratory::Scene& Laboratory::scene(std::uint64_t offset) {
     if (!from.truth.empty()) scene.truth = truth_from(read_table(from.truth), states_);
     return scene;
   }
-  for (const Column& column : source_->columns())
-    if (!column.input) scene.recording.observations.push_back(column);
-  scene.truth.known.assign(states_.size(), true);
-  source_->simulate(from.steps, from.seed + offset, [&](Step t, std::span<const double> state, const Row<double>& row) {
-    scene.recording.steps.push_back({t, {row}});
-    scene.truth.states[t].assign(state.begin(), state.end());
-    return true;
-  });
-  return scene;
+  return scene = simulated_scene(*source_, from.steps, from.seed + offset);
 }
 
 const RunRecord& Laboratory::record(const std::string& run, std::uint64_t recording_offset, std::uint64_t seed_offset) {
-  const std::atomic<bool>& stop = stop_flag();
-  if (stop) throw Refusal(ExitCode::kInterrupted, "mote reproduce: interrupted; no file was written.");
+  refuse_when_stopped();
   const auto [found, fresh] = records_.try_emplace({run, recording_offset, seed_offset});
   if (!fresh && !found->second.rows.empty()) return found->second;
   Bench& bench = benches_.at(run);
@@ -154,7 +161,43 @@ std::vector<double> Laboratory::mean_estimates(const RunRecord& record, std::siz
   return means;
 }
 
+/// All runs on one weight vector, so that their times see the same machine.
+const std::vector<Resampled>& Laboratory::resamplings(double ess, std::uint64_t repeat) {
+  const auto [found, fresh] = resamplings_.try_emplace({ess, repeat});
+  if (!fresh) return found->second;
+  const WeightedValues set = weighted_values(item_.weights->particles, ess, item_.weights->seed + repeat);
+  for (const Run& run : item_.runs)
+    found->second.push_back(
+        resampled(*benches_.at(run.name).plan.selection.scheme, set, kResamplings, item_.weights->seed + repeat));
+  return found->second;
+}
+
+double Laboratory::resample_figure(const Comparison& c, std::uint64_t repeat, std::size_t side) {
+  refuse_when_stopped();
+  std::size_t place = 0;
+  while (item_.runs[place].name != c.runs[side]) ++place;
+  const Resampled& figure = resamplings(c.ess, repeat)[place];
+  ran_();
+  if (c.kind == Kind::kResampleError) return figure.error;
+  return c.kind == Kind::kResampleTime ? figure.ns : figure.error * figure.ns;
+}
+
+std::vector<Tradeoff> Laboratory::tradeoffs() const {
+  std::vector<Tradeoff> all;
+  for (const double ess : item_.weights->ess)
+    for (std::size_t place = 0; place < item_.runs.size(); ++place) {
+      std::vector<double> errors;
+      std::vector<double> times;
+      for (const auto& [level, runs] : resamplings_)
+        if (level.first == ess) errors.push_back(runs[place].error), times.push_back(runs[place].ns);
+      if (errors.empty()) continue;
+      all.push_back({item_.runs[place].name, ess, compare::mean(errors), compare::median(times)});
+    }
+  return all;
+}
+
 std::vector<double> Laboratory::sample(const Comparison& c, std::uint64_t repeat, std::size_t side) {
+  if (item_.weights) return {resample_figure(c, repeat, side)};
   const bool one_recording = repeats_one_recording(c.kind);
   const std::uint64_t apart = c.kind == Kind::kMeanDifference ? side * static_cast<std::uint64_t>(c.repeats) : 0;
   const RunRecord& run = record(c.runs[side], one_recording ? 0 : repeat, repeat + apart);
@@ -189,6 +232,10 @@ std::vector<double> Laboratory::sample(const Comparison& c, std::uint64_t repeat
       return {summarise(run, nullptr).log_evidence};
     case Kind::kSummary:
       return {summary_figure(summarise(run, nullptr), c.key)};
+    case Kind::kResampleError:
+    case Kind::kResampleTime:
+    case Kind::kResampleCost:
+      break;  // of items on weights
   }
   return {kNaN};
 }
@@ -225,9 +272,7 @@ Result Laboratory::judged(const Comparison& c) {
   return result;
 }
 
-Outcome Laboratory::regenerate(const std::function<void()>& ran) {
-  ran_ = ran;
-  Outcome outcome;
+void Laboratory::run_filters(Outcome& outcome) {
   outcome.states = states_;
   outcome.truth = scene(0).truth;
   for (const ObservedStep& step : scene(0).recording.steps) outcome.times.push_back(step.t);
@@ -238,7 +283,14 @@ Outcome Laboratory::regenerate(const std::function<void()>& ran) {
       if (refusal.code() != ExitCode::kCollapsed) throw;
       outcome.collapses.push_back(run.name + ": " + refusal.what());
     }
+}
+
+Outcome Laboratory::regenerate(const std::function<void()>& ran) {
+  ran_ = ran;
+  Outcome outcome;
+  if (!item_.weights) run_filters(outcome);
   for (const Comparison& comparison : item_.comparisons) outcome.results.push_back(judged(comparison));
+  if (item_.weights) outcome.tradeoffs = tradeoffs();
   return outcome;
 }
 

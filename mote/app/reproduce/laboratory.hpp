@@ -6,6 +6,7 @@
 #include <memory>
 #include <tuple>
 
+#include "mote/app/catalogue/scene.hpp"
 #include "mote/app/commands/job.hpp"
 #include "mote/app/reproduce/item.hpp"
 #include "mote/app/reproduce/statistics.hpp"
@@ -21,6 +22,13 @@ struct Result {
   bool holds;
 };
 
+/// What a resampler did on the weights of one level, as the comparisons' repeats saw it.
+struct Tradeoff {
+  std::string run;
+  double ess;
+  double error, ns;  ///< mean error, median time
+};
+
 /// The runs of one item on its own recording, and the results of its comparisons.
 struct Outcome {
   std::vector<Quantity> states;
@@ -28,11 +36,13 @@ struct Outcome {
   Truth truth;
   std::vector<std::pair<std::string, RunRecord>> records;  ///< by run, those that did not collapse
   std::vector<std::string> collapses;                      ///< what the others said
+  std::vector<Tradeoff> tradeoffs;                         ///< of an item on weights, instead of records
   std::vector<Result> results;
 };
 
 /// One item at work. Repeat r adds r to the filter's seed and, where a kind asks for new recordings and the item
-/// simulates, to the recording's; a mean difference gives its two runs different filter seeds, the ratios the same.
+/// simulates, to the recording's; a mean difference gives its two runs different filter seeds, the ratios the same. On
+/// weights, repeat r has its own weights, the same for all runs, which take turns.
 class Laboratory {
  public:
   /// Makes every model and plan of the item.
@@ -47,14 +57,11 @@ class Laboratory {
   Outcome regenerate(const std::function<void()>& ran);
 
  private:
-  struct Scene {
-    Recording recording;
-    Truth truth;
-  };
   struct Bench {
     Job job;
     Plan plan;
   };
+  using Level = std::pair<double, std::uint64_t>;  // of ESS, repeat
 
   Bench bench_for(const Run& run) const;
   std::unique_ptr<CatalogueModel> model_with(const std::vector<std::string>& settings, const std::string& where) const;
@@ -63,6 +70,10 @@ class Laboratory {
   std::optional<std::size_t> place_of(const std::string& state) const;
   const Scene& scene(std::uint64_t offset);
   const RunRecord& record(const std::string& run, std::uint64_t recording_offset, std::uint64_t seed_offset);
+  const std::vector<Resampled>& resamplings(double ess, std::uint64_t repeat);
+  double resample_figure(const Comparison& comparison, std::uint64_t repeat, std::size_t side);
+  std::vector<Tradeoff> tradeoffs() const;
+  void run_filters(Outcome& outcome);
   Samples samples_of(const Comparison& comparison);
   std::vector<double> sample(const Comparison& comparison, std::uint64_t repeat, std::size_t side);
   std::vector<double> mean_estimates(const RunRecord& record, std::size_t state);
@@ -75,6 +86,7 @@ class Laboratory {
   std::map<std::string, Bench> benches_;
   std::map<std::uint64_t, Scene> scenes_;
   std::map<std::tuple<std::string, std::uint64_t, std::uint64_t>, RunRecord> records_;
+  std::map<Level, std::vector<Resampled>> resamplings_;  // by run
   std::function<void()> ran_;
 };
 

@@ -16,6 +16,7 @@ std::string set_options(const std::vector<std::string>& settings) {
 }  // namespace
 
 std::string script_for(const Item& item) {
+  if (item.weights) return "";
   const Source& from = item.recording;
   const std::string base = slug(item.paper + "-" + item.name);
   std::string data = from.observations;

@@ -6,8 +6,9 @@ export const margins = { left: 82, right: 26, top: 12, bottom: 46 };
 export const colourOf = (item, colours) =>
   item.truth ? colours.ink : colours.colours[item.colour % colours.colours.length];
 
-// More series than colours: the second round is told apart by its dashes.
-const dash = (item, colours) => (item.truth ? [6, 4] : item.colour >= colours.colours.length ? [2, 3] : "solid");
+// More series than colours: the second round is told apart by its dashes and diamonds.
+const isSecondRound = (item, colours) => item.colour >= colours.colours.length;
+const dash = (item, colours) => (item.truth ? [6, 4] : isSecondRound(item, colours) ? [2, 3] : "solid");
 
 function axis({ name, full, shown, log, whole, count, gap, place, empty, colours }) {
   const marks = ticks(shown, count, { log, whole });
@@ -93,7 +94,8 @@ function lineSeries(item, points, colours) {
     silent: true,
     data: withLonelyDots(points, 5),
     step: item.mark === "steps" ? "end" : false,
-    symbol: "none",
+    symbol: item.mark === "marked" ? "circle" : "none",
+    symbolSize: 7,
     showSymbol: true,
     showAllSymbol: true,
     connectNulls: false,
@@ -113,13 +115,14 @@ function pointSeries(item, points, colours) {
     data: points,
     large: many,
     progressive: 0,
-    symbolSize: many ? 2.5 : points.length > 300 ? 4 : 5.5,
+    symbol: isSecondRound(item, colours) ? "diamond" : "circle",
+    symbolSize: many ? 2.5 : points.length > 300 ? 4 : points.length > 3 ? 5.5 : 10,
     itemStyle: { color: colourOf(item, colours), opacity: many ? 0.6 : 0.85 },
     emphasis: { disabled: true },
   };
 }
 
-const seriesOf = { band: bandSeries, points: pointSeries, line: lineSeries, steps: lineSeries };
+const seriesOf = { band: bandSeries, points: pointSeries, line: lineSeries, steps: lineSeries, marked: lineSeries };
 
 /**
  * chart: prepared; shown: [{item, points}]; full, window: {x, y} ranges; size: of the whole canvas; tooltip: ours.

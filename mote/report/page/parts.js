@@ -11,21 +11,29 @@ export function button(text, label, press) {
 const signs = {
   band: '<rect x="1" y="2" width="22" height="10" rx="2" fill="currentColor" opacity="0.3"/>',
   points: '<circle cx="6" cy="7" r="3" fill="currentColor"/><circle cx="17" cy="7" r="3" fill="currentColor"/>',
+  diamonds: '<path d="M6 3L10 7L6 11L2 7ZM17 3L21 7L17 11L13 7Z" fill="currentColor"/>',
   steps: '<path d="M1 11H9V3H17V8H23" fill="none" stroke="currentColor" stroke-width="2"/>',
   line: '<path d="M1 7H23" stroke="currentColor" stroke-width="2.5"/>',
+  marked:
+    '<path d="M1 7H23" stroke="currentColor" stroke-width="2.5"/><circle cx="12" cy="7" r="3.5" fill="currentColor"/>',
   truth: '<path d="M1 7H23" stroke="currentColor" stroke-width="2" stroke-dasharray="6 3"/>',
 };
+
+const palette = 6; // colours of the style sheet
+
+const signOf = (item) =>
+  item.truth ? signs.truth : signs[item.mark === "points" && item.colour >= palette ? "diamonds" : item.mark];
 
 /** The sign of an item; without colours it takes those of the style sheet and follows the scheme by itself. */
 export function swatch(item, colours) {
   const node = document.createElement("span");
   node.className = "swatch";
-  node.innerHTML = `<svg viewBox="0 0 24 14" width="24" height="14" aria-hidden="true">${signs[item.truth ? "truth" : item.mark]}</svg>`;
+  node.innerHTML = `<svg viewBox="0 0 24 14" width="24" height="14" aria-hidden="true">${signOf(item)}</svg>`;
   node.style.color = colours
     ? colourOf(item, colours)
     : item.truth
       ? "var(--ink)"
-      : `var(--series-${(item.colour % 6) + 1})`;
+      : `var(--series-${(item.colour % palette) + 1})`;
   return node;
 }
 

@@ -11,10 +11,11 @@
 
 namespace mote::referee {
 
-/// Posterior means by step, and the evidence of the whole recording.
+/// Posterior means by step, the evidence of the whole recording, and what the grid could not hold.
 struct GridResult {
   std::vector<double> means;
   double log_evidence = 0;
+  double outside = 0;  ///< largest probability, over the steps, that left the grid or came within 2 of its edge
 };
 
 /// Ungm<1> on equidistant points, by the trapezoidal rule.
@@ -24,12 +25,10 @@ struct GridResult {
 /// The narrowest thing the rule must resolve is the drift's slope of 25 at zero: a source there sees a transition of
 /// standard deviation sqrt(q) / 25 = 0.12. The rule's error for a Gaussian of standard deviation s falls like exp(-2
 /// pi^2 s^2 / h^2): with h = 0.1 it is 1e-13, with h = 0.2 it would be 5e-4. The transition is cut off 7 standard
-/// deviations from its mean (1e-12 of its mass) and kept in float (6e-8). grid_test.cpp compares it with a grid of a
-/// quarter the step.
+/// deviations from its mean (1e-12 of its mass) and kept in float (6e-8).
 ///
 /// cost    14 points sqrt(q) / h products a step; one transition matrix per step index, kept and shared by all
-/// recordings:
-///         1.8 MB each at the defaults; not thread-safe
+///         recordings: 1.8 MB each at the defaults, 256 MB in all, then they are made afresh; not thread-safe
 class Grid {
  public:
   explicit Grid(const Ungm<1>& model, double edge = 50, std::size_t points = 1001)
@@ -41,8 +40,12 @@ class Grid {
     for (std::size_t i = 0; i < points_; ++i) density[i] = std::exp(normal_log_density(at(i), model_.p.p0));
     Step t = 0;
     for (const ObservedStep& step : recording.steps) {
-      while (t < step.t) density = predicted(density, ++t);
+      while (t < step.t) {
+        density = predicted(density, ++t);
+        result.outside = std::max(result.outside, 1 - mass(density, 0));
+      }
       for (const Row<double>& row : step.rows) result.log_evidence += update(density, t, row);
+      result.outside = std::max(result.outside, mass(density, 0) - mass(density, 2));
       result.means.push_back(mean(density));
     }
     return result;
@@ -56,6 +59,8 @@ class Grid {
     std::vector<float> density;
   };
 
+  static constexpr std::size_t kMostKept = std::size_t{64} << 20U;  // densities: 256 MB
+
   double at(std::size_t i) const { return -edge_ + step_ * static_cast<double>(i); }
 
   const Transition& transition(Step t) {
@@ -66,12 +71,14 @@ class Grid {
     for (std::size_t j = 0; j < points_; ++j) {
       const double centre = model_.drift(t, at(j));
       const double lowest = std::floor((centre - reach + edge_) / step_);
-      const double most = static_cast<double>(points_ - made.width);
+      const auto most = static_cast<double>(points_ - made.width);
       made.first.push_back(static_cast<std::size_t>(std::clamp(lowest, 0.0, most)));
       for (std::size_t i = 0; i < made.width; ++i)
         made.density.push_back(
             static_cast<float>(step_ * std::exp(normal_log_density(at(made.first[j] + i) - centre, model_.p.q))));
     }
+    if (kept_ + made.density.size() > kMostKept) transitions_.clear(), kept_ = 0;
+    kept_ += made.density.size();
     return transitions_.emplace(t, std::move(made)).first->second;
   }
 
@@ -99,6 +106,14 @@ class Grid {
     return largest + std::log(mass);
   }
 
+  /// The probability of the points that are more than `margin` away from the edges.
+  double mass(const std::vector<double>& density, double margin) const {
+    const auto skipped = static_cast<std::size_t>(margin / step_);
+    double sum = 0;
+    for (std::size_t i = skipped; i + skipped < points_; ++i) sum += step_ * density[i];
+    return sum;
+  }
+
   double mean(const std::vector<double>& density) const {
     double sum = 0;
     double mass = 0;
@@ -112,6 +127,7 @@ class Grid {
   Ungm<1> model_;
   double edge_, step_;
   std::size_t points_;
+  std::size_t kept_ = 0;  // densities in transitions_
   std::map<Step, Transition> transitions_;
 };
 

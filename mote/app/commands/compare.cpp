@@ -1,0 +1,197 @@
+#include <algorithm>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "mote/app/commands/command.hpp"
+#include "mote/app/compare/publication.hpp"
+#include "mote/app/files/output.hpp"
+#include "mote/app/files/text.hpp"
+#include "mote/app/terminal/progress.hpp"
+#include "mote/app/terminal/signals.hpp"
+#include "mote/filter/particles.hpp"
+
+namespace mote {
+namespace {
+
+using namespace compare;
+
+constexpr long long kMostSteps = 1'000'000;
+constexpr long long kMostRuns = 10'000;
+const std::string kLargeRun = "sisr -n 200000";
+
+/// "100,1000" in growing order, each once.
+std::vector<std::size_t> particles_from(const Arguments& arguments) {
+  std::vector<std::size_t> all;
+  std::istringstream stream(arguments.text("--particles"));
+  for (std::string part; std::getline(stream, part, ',');) {
+    const auto n = integer_in(std::string(trimmed(part)));
+    if (!n || *n < 1 || *n > static_cast<long long>(kMostParticles))
+      throw Refusal(
+          ExitCode::kWrongUse,
+          {arguments.where(), "--particles", fmt::format("integers from 1 to {}, separated by commas", kMostParticles),
+           "\"" + arguments.text("--particles") + "\"", "Pass --particles 100,1000,10000."});
+    all.push_back(static_cast<std::size_t>(*n));
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+std::size_t count_from(const Arguments& arguments, const std::string& name) {
+  return static_cast<std::size_t>(arguments.integer(name, 1, kMostRuns));
+}
+
+/// Simulated recordings, the same for every contender: seeds S to S + K - 1.
+void simulate_scenes(const Arguments& arguments, Design& design, Outcome& outcome) {
+  const auto header = frame_header(arguments.integer("--columns", 1, 4096));
+  const auto steps = static_cast<Step>(arguments.integer("--steps", 1, kMostSteps));
+  const std::size_t recordings = count_from(arguments, "--recordings");
+  design.catalogue_model =
+      find_model(design.model, design.where).make(Settings(design.where, arguments.list("--set")), header);
+  for (std::size_t k = 0; k < recordings; ++k)
+    design.scenes.push_back(simulated_scene(*design.catalogue_model, steps, design.seed + k));
+  outcome.source = fmt::format("{} recording{} of {} steps (seeds {} to {})", recordings, recordings == 1 ? "" : "s",
+                               steps, design.seed, design.seed + recordings - 1);
+}
+
+void load_scene(const Arguments& arguments, Design& design, Outcome& outcome, std::vector<std::string>& notes) {
+  for (const std::string name : {"--steps", "--recordings", "--columns"})
+    if (arguments.given(name))
+      throw Refusal(ExitCode::kWrongUse, {design.where, name, "simulated recordings", "--data with one of its own",
+                                          "Leave out " + name + " or --data."});
+  Job job = load_job(design.model, arguments.text("--data"), arguments.text("--truth"), arguments.list("--set"),
+                     design.where);
+  design.catalogue_model = job.model;
+  design.scenes.push_back({std::move(job.recording), job.truth ? std::move(*job.truth) : Truth{}});
+  notes.insert(notes.end(), job.notes.begin(), job.notes.end());
+  outcome.source = arguments.text("--data");
+}
+
+void find_scenes(const Arguments& arguments, Design& design, Outcome& outcome, std::vector<std::string>& notes) {
+  if (arguments.given("--data")) return load_scene(arguments, design, outcome, notes);
+  if (arguments.given("--truth"))
+    throw Refusal(ExitCode::kWrongUse, {design.where, "--truth", "--data, whose truth it is", "nothing",
+                                        "Pass --data, or leave --truth out: simulated recordings have their own."});
+  simulate_scenes(arguments, design, outcome);
+}
+
+/// The reference that was asked for, its plan read before any work is done.
+Reference find_reference(const Design& design, const std::string& asked, const std::optional<Plan>& plan,
+                         const std::atomic<bool>& stop) {
+  Progress progress("recordings of the reference");
+  const auto update = [&](std::size_t done, std::size_t all) { progress.update(done, all); };
+  if (asked == "none") return {};
+  if (plan) return run_reference(design, *plan, asked, update, stop);
+  Reference exact = exact_reference(design, update, stop);
+  if (!exact.name.empty()) return exact;
+  if (asked == "exact")
+    throw Refusal(ExitCode::kWrongUse,
+                  {design.where, "--reference exact", "a model and recordings with a known exact solution",
+                   design.model, "Pass --reference \"" + kLargeRun + "\", or leave it out."});
+  std::vector<std::string> no_notes;
+  return run_reference(design, reference_plan(kLargeRun, design.where, no_notes), kLargeRun, update, stop);
+}
+
+/// Refuses a comparison without anything to measure errors by.
+void check_measurable(const Design& design, const std::string& reference, std::optional<double> lost_beyond) {
+  const Truth& truth = design.scenes.front().truth;
+  const bool known = design.has_truth() && std::all_of(design.target.states.begin(), design.target.states.end(),
+                                                       [&](std::size_t d) { return truth.known[d]; });
+  if (reference == "none" && !known)
+    throw Refusal(ExitCode::kWrongUse, {design.where, "--reference none", "a truth of " + design.target.name, "none",
+                                        "Pass --truth, or leave --reference out."});
+  if (lost_beyond && !known)
+    throw Refusal(ExitCode::kWrongUse, {design.where, "--lost-beyond", "a truth of " + design.target.name, "none",
+                                        "Pass --truth, or leave it out."});
+}
+
+std::optional<double> lost_beyond_from(const Arguments& arguments) {
+  if (!arguments.given("--lost-beyond")) return std::nullopt;
+  return arguments.number("--lost-beyond", 0, 1e300);
+}
+
+void protect_inputs(OutputSet& outputs, const Arguments& arguments) {
+  outputs.protect(arguments.text("--data"));
+  outputs.protect(arguments.text("--truth"));
+  for (const std::string& setting : arguments.list("--set"))
+    if (setting.starts_with("file=")) outputs.protect(setting.substr(5));
+}
+
+ExitCode run_compare(const Arguments& arguments) {
+  const std::atomic<bool>& stop = stop_flag();
+  std::vector<std::string> notes;
+  Outcome outcome;
+  outcome.command = arguments.command_line();
+  outcome.lost_beyond = lost_beyond_from(arguments);
+  Design& design = outcome.design;
+  design.model = arguments.text("MODEL");
+  design.where = arguments.where();
+  design.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 0, 9223372036854775807LL));
+  design.repeats = count_from(arguments, "--repeats");
+  design.particles = particles_from(arguments);
+  design.contenders = contenders_from(
+      arguments.required("--filters", "filters with their options, separated by ;", "Pass --filters \"sisr; imh\"."),
+      design.particles, design.where, notes);
+  const std::string reference = arguments.text("--reference");
+  std::optional<Plan> reference_run;
+  if (reference != "auto" && reference != "exact" && reference != "none")
+    reference_run = reference_plan(reference, design.where, notes);
+  find_scenes(arguments, design, outcome, notes);
+  design.target = target_of(arguments.text("--state"), design.catalogue_model->states(), design.where);
+  check_measurable(design, reference, outcome.lost_beyond);
+  check_contenders(design);
+  OutputSet outputs;
+  protect_inputs(outputs, arguments);
+  Output* csv = outputs.open(arguments.text("--out"));
+  Output* json = outputs.open(arguments.text("--json"));
+  Output* page = outputs.open(arguments.text("--report"));
+  for (const std::string& note : notes) fmt::print(stderr, "{}\n", printable(note));
+  design.reference = find_reference(design, reference, reference_run, stop);
+  {
+    Progress progress("particles");
+    outcome.runs = run_study(
+        design, [&](std::size_t done, std::size_t all) { progress.update(done, all); }, stop);
+  }
+  outcome.figures = figures_of(design, outcome.runs, outcome.lost_beyond);
+  if (csv != nullptr) csv->write(comparison_csv(outcome));
+  if (json != nullptr) json->write(comparison_json(outcome).dump(2) + "\n");
+  if (page != nullptr) page->write(report::html(comparison_page(outcome)));
+  outputs.commit();
+  if (!outputs.on_standard_output()) fmt::print("{}", comparison_table(outcome));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Command compare_command() {
+  return {
+      "compare",
+      "Compare filters on the same recordings",
+      {{"MODEL", "a model of the catalogue (see mote models)"}},
+      {{"--data", "FILE", "", "one recording as CSV, instead of simulated ones", "Data"},
+       {"--truth", "FILE", "", "its true states as CSV [none]", "Data"},
+       {"--steps", "T", "100", "steps of a simulated recording, from 1 to 1000000", "Data"},
+       {"--recordings", "K", "10", "simulated recordings, from 1 to 10000", "Data"},
+       {"--columns", "M", "1", "doa: directions per frame, from 1 to 4096", "Data"},
+       {"--set", "NAME=VALUE", "", "set a parameter of the model; may be repeated [its defaults]", "Data", true},
+       {"--filters", "LIST", "",
+        "contenders, separated by ; : a filter's name, then options of mote run; must be given", "Contenders"},
+       {"-n,--particles", "LIST", "1000", "numbers of particles, separated by commas", "Contenders"},
+       {"--repeats", "R", "20", "runs of every contender on every recording, from 1 to 10000", "Contenders"},
+       {"--seed", "S", "1", "first seed; repeat r on recording k has S + k R + r, recording k has S + k", "Contenders"},
+       {"--reference", "WHAT", "auto",
+        "what means are compared with: auto = exact where known, else \"" + kLargeRun +
+            "\"; exact; none; or a filter with options",
+        "Judgement"},
+       {"--state", "NAME", "", "whose error [position for models with x and y, else the first state]", "Judgement"},
+       {"--lost-beyond", "D", "", "count tracks that end further from the truth than D [not counted]", "Judgement"},
+       {"--out", "FILE", "", "the table as CSV; - is standard output [none]", "Output"},
+       {"--json", "FILE", "", "design, table and every run as JSON [none]", "Output"},
+       {"--report", "FILE", "", "report with a plot, one HTML file [none]", "Output"}},
+      run_compare,
+      "Exit codes: 0 done, 2 wrong use, 3 bad data, 4 the reference collapsed, 6 cannot write, 130 interrupted."};
+}
+
+}  // namespace mote
