@@ -45,7 +45,7 @@ template <Model M, class R, class G = Prior>
 class VectorImportanceFilter final : public Filter {
  public:
   /// Small states leave registers for two vectors side by side.
-  static constexpr std::size_t kBytes = kComponents<M> == 1 || kComponents<M> == 2 ? MOTE_KB : 64;
+  static constexpr std::size_t kBytes = kComponents<M> == 1 || kComponents<M> == 2 ? (std::is_same_v<R, double> ? 128 : 64) : 64;
   using V = lanes::Vector<R, kBytes>;
   using State = StateOf<M, V>;
 
