@@ -32,7 +32,8 @@ enum class Purpose : std::uint32_t {
   kObserve,
   kReset,
   kTest,
-  kTruth
+  kTruth,
+  kPoints
 };
 
 /// Where a block of draws lives.
