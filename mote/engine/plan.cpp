@@ -53,6 +53,8 @@ std::string_view name_of(FilterKind filter) {
       return "auxiliary";
     case FilterKind::kDistributed:
       return "distributed";
+    case FilterKind::kSqmc:
+      return "sqmc";
   }
   return "";
 }
@@ -61,6 +63,7 @@ double bytes_needed(const Plan& plan, std::size_t dimensions) {
   const double state = static_cast<double>(dimensions) * (plan.precision == Precision::kFloat ? 4 : 8);
   const auto n = static_cast<double>(plan.particles);
   if (plan.filter == FilterKind::kSisr || plan.filter == FilterKind::kDistributed) return n * (state + 48);
+  if (plan.filter == FilterKind::kSqmc) return n * (2 * state + 48);
   const auto draws = static_cast<double>(plan.chain.draws == 0 ? plan.particles : plan.chain.draws);
   // `auto` may ask for as many as Q in each chain
   const double burn_in =

@@ -8,7 +8,7 @@
 
 namespace mote {
 
-enum class FilterKind { kSisr, kImh, kAuxiliary, kDistributed };
+enum class FilterKind { kSisr, kImh, kAuxiliary, kDistributed, kSqmc };
 enum class Precision { kFloat, kDouble };
 
 /// What to run. Defaults are the papers' filters.

@@ -5,6 +5,7 @@
 #include "mote/base/refusal.hpp"
 #include "mote/filter/imh.hpp"
 #include "mote/filter/sisr.hpp"
+#include "mote/filter/sqmc.hpp"
 #include "mote/model/local_level.hpp"
 
 namespace mote {
@@ -68,6 +69,7 @@ TEST(Run, PredictsAcrossGapsAndStepsWithoutObservation) {
   expect_gaps_and_missing_rows([] { return make_sisr(kModel, kParticles, 5); });
   expect_gaps_and_missing_rows([] { return make_imh(kModel, kParticles, 5); });
   expect_gaps_and_missing_rows([] { return make_sisr<float>(kModel, kParticles, 5); });
+  expect_gaps_and_missing_rows([] { return make_sqmc(kModel, kParticles, 5); });
 }
 
 // Two measurements y1, y2 of variance r are one of mean (y1 + y2) / 2 and variance r / 2, up to a constant of the
@@ -125,6 +127,8 @@ std::vector<MakeDoomed> doomed_filters(const Doomed& model) {
       [=](OnCollapse c) { return make_sisr<float>(model, kParticles, 2, {}, c); },
       [=](OnCollapse c) { return make_distributed(model, kParticles, 2, groups, {}, c); },
       [=](OnCollapse c) { return make_imh(model, kParticles, 2, {.chains = 2, .start = ChainStart::kWeighted}, c); },
+      [=](OnCollapse c) { return make_sqmc(model, kParticles, 2, c); },
+      [=](OnCollapse c) { return make_sqmc<float>(model, kParticles, 2, c); },
       [=](OnCollapse c) { return make_imh(model, kParticles, 2, {.burn_in = std::nullopt}, c); },
       [=](OnCollapse c) {
         return make_auxiliary(model, kParticles, 2, {.parent_weights = ParentWeights::kLookahead}, c);

@@ -8,6 +8,7 @@
 #include "mote/engine/plan.hpp"
 #include "mote/filter/imh.hpp"
 #include "mote/filter/sisr.hpp"
+#include "mote/filter/sqmc.hpp"
 
 namespace mote {
 
@@ -24,6 +25,8 @@ std::unique_ptr<Filter> with_proposal(const M& model, const Plan& plan) {
       return make_auxiliary<R, G>(model, plan.particles, plan.seed, plan.chain, plan.on_collapse);
     case FilterKind::kDistributed:
       return make_distributed<R, G>(model, plan.particles, plan.seed, plan.groups, plan.selection, plan.on_collapse);
+    case FilterKind::kSqmc:
+      return make_sqmc<R, G>(model, plan.particles, plan.seed, plan.on_collapse);
   }
   return nullptr;
 }
@@ -40,6 +43,16 @@ inline void check_density(Density density, const Plan& plan, const std::string& 
                                            ": the model's noise has fewer dimensions than its state, so the sum over "
                                            "parents of p(x | x^i) in the IMH weight (12) does not exist. Pass --filter "
                                            "auxiliary, whose weights (23) need no sum, or --proposal prior.");
+}
+
+/// Refuses quasi-random points for a model that draws more numbers a step than they have coordinates.
+template <Model M>
+void check_points(const M& model, const Plan& plan, const std::string& where) {
+  if (plan.filter == FilterKind::kSqmc && point_dimensions(model) > Sobol::kMostDimensions)
+    throw Refusal(ExitCode::kWrongUse,
+                  {where, "--filter sqmc",
+                   "a model that draws at most " + std::to_string(Sobol::kMostDimensions) + " numbers a step",
+                   std::to_string(point_dimensions(model)), "Pass --filter sisr."});
 }
 
 template <class R, Model M>
@@ -64,9 +77,11 @@ std::unique_ptr<Filter> in_precision(const M& model, const Plan& plan, const std
 
 /// A filter of the reference engine for a model and a plan that has been checked.
 ///
-/// error   Refusal (kWrongUse) when the model has no proposal of that name, or its weights do not exist
+/// error   Refusal (kWrongUse) when the model has no proposal of that name, or its weights do not exist; when it draws
+///         more numbers a step than quasi-random points have coordinates
 template <Model M>
 std::unique_ptr<Filter> make_reference_filter(const M& model, const Plan& plan, const std::string& where) {
+  reference::check_points(model, plan, where);
   auto filter = plan.precision == Precision::kFloat ? reference::in_precision<float>(model, plan, where)
                                                     : reference::in_precision<double>(model, plan, where);
   if (!filter)

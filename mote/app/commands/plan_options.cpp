@@ -9,8 +9,8 @@
 namespace mote {
 namespace {
 
-const std::vector<std::string> kFilters{"sisr", "imh", "auxiliary", "distributed"};
-const std::vector<std::string> kFiltersLater{"sqmc", "ekf", "ukf"};
+const std::vector<std::string> kFilters{"sisr", "imh", "auxiliary", "distributed", "sqmc"};
+const std::vector<std::string> kFiltersLater{"ekf", "ukf"};
 const std::vector<std::string> kEngines{"reference"};
 const std::vector<std::string> kEnginesLater{"simd", "pipeline", "mpi"};
 constexpr long long kMost = static_cast<long long>(kMostParticles);
@@ -76,7 +76,7 @@ std::vector<OptionSpec> plan_options() {
   const std::string groups = "Groups (distributed)";
   const std::string engine = "Engine";
   return {
-      {"--filter", "NAME", "sisr", "sisr, imh, auxiliary or distributed", filter},
+      {"--filter", "NAME", "sisr", "sisr, imh, auxiliary, distributed or sqmc", filter},
       {"-n,--particles", "N", "1000", "particles, from 1 to 268435456", filter},
       {"--seed", "S", "1", "seed, an integer of at least 0; same seed, same result", filter},
       {"--resampler", "NAME", "systematic", fmt::format("{}", fmt::join(scheme_names(), ", ")), filter},
@@ -148,6 +148,8 @@ std::vector<std::string> notes_on_unread(const Arguments& arguments, const Plan&
   note(!chains, {"--draws", "--burn-in", "--chains", "--parents", "--chain-start", "--parent-weights"},
        filter + " has no chains");
   note(chains, {"--resampler", "--ess-threshold", "--selection-exponent"}, filter + " does not resample");
+  note(plan.filter == FilterKind::kSqmc, {"--resampler", "--ess-threshold", "--selection-exponent"},
+       filter + " chooses parents by its points at every step");
   note(!groups, {"--groups", "--group-resampling", "--exchange", "--exchange-count", "--group-weights"},
        filter + " has no groups");
   note(groups && plan.groups.global, {"--exchange", "--exchange-count", "--group-weights"},
