@@ -4,6 +4,7 @@
 
 #include "mote/base/refusal.hpp"
 #include "mote/filter/imh.hpp"
+#include "mote/filter/kalman.hpp"
 #include "mote/filter/sisr.hpp"
 #include "mote/filter/sqmc.hpp"
 #include "mote/model/local_level.hpp"
@@ -146,6 +147,22 @@ TEST(Run, ACollapseStopsWithItsOwnExitCode) {
       EXPECT_NE(std::string(refusal.what()).find("t = 2"), std::string::npos);
       EXPECT_NE(std::string(refusal.what()).find("--on-collapse"), std::string::npos);
     }
+  }
+}
+
+// A Kalman filter has no particles to weigh: the sentence says what it has.
+TEST(Run, ACollapseOfALawIsSaidOfTheLaw) {
+  const auto filter = make_ekf(kModel, kParticles);
+  Plan plan;
+  plan.filter = FilterKind::kEkf;
+  Recording recording;
+  recording.steps = {{1, {seen(1e300)}}};
+  try {
+    run(*filter, plan, recording, request_for(kModel.states()));
+    ADD_FAILURE() << "went on";
+  } catch (const Refusal& refusal) {
+    EXPECT_EQ(refusal.code(), ExitCode::kCollapsed);
+    EXPECT_NE(std::string(refusal.what()).find("density zero"), std::string::npos);
   }
 }
 

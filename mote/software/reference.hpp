@@ -7,6 +7,7 @@
 #include "mote/base/refusal.hpp"
 #include "mote/engine/plan.hpp"
 #include "mote/filter/imh.hpp"
+#include "mote/filter/kalman.hpp"
 #include "mote/filter/sisr.hpp"
 #include "mote/filter/sqmc.hpp"
 
@@ -27,6 +28,9 @@ std::unique_ptr<Filter> with_proposal(const M& model, const Plan& plan) {
       return make_distributed<R, G>(model, plan.particles, plan.seed, plan.groups, plan.selection, plan.on_collapse);
     case FilterKind::kSqmc:
       return make_sqmc<R, G>(model, plan.particles, plan.seed, plan.on_collapse);
+    case FilterKind::kEkf:
+    case FilterKind::kUkf:
+      break;  // they propose nothing: gaussian() makes them
   }
   return nullptr;
 }
@@ -43,6 +47,25 @@ inline void check_density(Density density, const Plan& plan, const std::string& 
                                            ": the model's noise has fewer dimensions than its state, so the sum over "
                                            "parents of p(x | x^i) in the IMH weight (12) does not exist. Pass --filter "
                                            "auxiliary, whose weights (23) need no sum, or --proposal prior.");
+}
+
+/// A filter with one Gaussian law.
+///
+/// error   Refusal (kWrongUse) when the model draws other than normal numbers, or cannot draw observations
+template <Model M>
+std::unique_ptr<Filter> gaussian(const M& model, const Plan& plan, const std::string& where) {
+  const std::string what = "--filter " + std::string(name_of(plan.filter));
+  if constexpr (Observable<M>) {
+    if (has_normal_noise(model))
+      return plan.filter == FilterKind::kEkf ? make_ekf(model, plan.particles, plan.on_collapse)
+                                             : make_ukf(model, plan.particles, plan.on_collapse);
+    throw Refusal(ExitCode::kWrongUse,
+                  {where, what, "a model whose noise is Gaussian",
+                   "one that draws uniform numbers (bearings does with dof above 0)", "Pass --filter sisr."});
+  } else {
+    throw Refusal(ExitCode::kWrongUse,
+                  {where, what, "a model that can draw observations", "one without observe()", "Pass --filter sisr."});
+  }
 }
 
 /// Refuses quasi-random points for a model that draws more numbers a step than they have coordinates.
@@ -78,9 +101,11 @@ std::unique_ptr<Filter> in_precision(const M& model, const Plan& plan, const std
 /// A filter of the reference engine for a model and a plan that has been checked.
 ///
 /// error   Refusal (kWrongUse) when the model has no proposal of that name, or its weights do not exist; when it draws
-///         more numbers a step than quasi-random points have coordinates
+///         more numbers a step than quasi-random points have coordinates; when its noise is not Gaussian and the filter
+///         needs that
 template <Model M>
 std::unique_ptr<Filter> make_reference_filter(const M& model, const Plan& plan, const std::string& where) {
+  if (is_gaussian(plan.filter)) return reference::gaussian(model, plan, where);
   reference::check_points(model, plan, where);
   auto filter = plan.precision == Precision::kFloat ? reference::in_precision<float>(model, plan, where)
                                                     : reference::in_precision<double>(model, plan, where);

@@ -127,6 +127,35 @@ struct Spendthrift {
   }
 };
 
+TEST(Reference, KalmanFiltersAreTheSameForEverySeedAndPrecision) {
+  for (const auto filter : {FilterKind::kEkf, FilterKind::kUkf}) {
+    Plan plan;
+    plan.filter = filter;
+    const auto first = means(plan);
+    plan.seed = 2;
+    plan.precision = Precision::kFloat;
+    plan.particles = 10;
+    const auto second = means(plan);
+    for (std::size_t k = 0; k < first.size(); ++k) EXPECT_NEAR(second[k], first[k], 1e-12);
+  }
+  Plan ekf;
+  ekf.filter = FilterKind::kEkf;
+  Plan ukf;
+  ukf.filter = FilterKind::kUkf;
+  EXPECT_NE(means(ekf), means(ukf));
+}
+
+TEST(Reference, RefusesKalmanFiltersOfOtherThanGaussianNoise) {
+  Bearings heavy;
+  heavy.p.dof = 3;
+  for (const auto filter : {FilterKind::kEkf, FilterKind::kUkf}) {
+    EXPECT_NE(refusal(heavy, filter, "prior").find("whose noise is Gaussian"), std::string::npos);
+    EXPECT_NE(refusal(Spendthrift{}, filter, "prior").find("without observe()"), std::string::npos);
+    EXPECT_EQ(refusal(Bearings{}, filter, "prior"), "");
+    EXPECT_EQ(refusal(Doa{}, filter, "prior"), "");
+  }
+}
+
 TEST(Reference, RefusesMoreDrawsThanPointsHaveCoordinates) {
   EXPECT_NE(refusal(Spendthrift{}, FilterKind::kSqmc, "prior").find("3667"), std::string::npos);
   EXPECT_EQ(refusal(Spendthrift{}, FilterKind::kSisr, "prior"), "");

@@ -24,7 +24,7 @@ std::vector<MemoryCase> cases() {
       add("--filter " + filter + " --resampler " + std::string(scheme.name));
   for (const std::string filter :
        {"imh", "imh --improved", "imh --burn-in auto", "imh --parents sweep", "auxiliary", "auxiliary --improved",
-        "auxiliary --parent-weights lookahead", "sqmc", "sqmc --precision float"})
+        "auxiliary --parent-weights lookahead", "sqmc", "sqmc --precision float", "ekf", "ukf"})
     add("--filter " + filter);
   return all;
 }

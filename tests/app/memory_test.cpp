@@ -22,10 +22,11 @@ std::vector<MemoryCase> cases() {
     all.push_back({"ungm", 2'000'000, 1, "--resampler " + std::string(scheme.name)});
   for (const std::string filter :
        {"sisr", "imh --improved", "imh --burn-in auto", "auxiliary --parent-weights lookahead",
-        "distributed --groups 8 --exchange swap", "sqmc"})
+        "distributed --groups 8 --exchange swap", "sqmc", "ukf"})
     all.push_back({"bearings", 500'000, 4, "--filter " + filter});
   all.push_back({"ungm", 2'000'000, 1, "--filter imh"});
   all.push_back({"ungm", 2'000'000, 1, "--filter sqmc"});
+  all.push_back({"ungm", 2'000'000, 1, "--filter ekf"});
   all.push_back({"ungm", 2'000'000, 1, "--estimate median(x)"});
   return all;
 }
