@@ -41,13 +41,18 @@ class Side {
 
 std::uint64_t hilbert_place(std::span<std::uint32_t> cell, unsigned digits) {
   const std::uint32_t top = std::uint32_t{1} << (digits - 1);
-  for (std::uint32_t q = top; q > 1; q >>= 1U)
-    for (std::uint32_t& c : cell) {
-      const std::uint32_t below = q - 1;
-      const std::uint32_t swapped = (c & q) != 0 ? 0 : (cell[0] ^ c) & below;
-      cell[0] ^= (c & q) != 0 ? below : swapped;
+  std::uint32_t first = cell[0];
+  for (std::uint32_t q = top; q > 1; q >>= 1U) {
+    const std::uint32_t below = q - 1;
+    const auto high = [q](std::uint32_t c) { return (c & q) != 0 ? ~0U : 0U; };
+    first ^= below & high(first);
+    for (std::uint32_t& c : cell.subspan(1)) {
+      const std::uint32_t swapped = (first ^ c) & below & ~high(c);
+      first ^= (below & high(c)) | swapped;
       c ^= swapped;
     }
+  }
+  cell[0] = first;
   for (std::size_t d = 1; d < cell.size(); ++d) cell[d] ^= cell[d - 1];
   std::uint32_t turned = 0;
   for (std::uint32_t q = top; q > 1; q >>= 1U)

@@ -2,6 +2,7 @@
 /// Hilbert's curve: an order for points of several dimensions in which neighbours along the order are neighbours in
 /// space.
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -10,11 +11,12 @@
 
 namespace mote {
 
-/// Binary digits of a cell's coordinate whose index along the curve fits into 64 bits.
+/// Binary digits of a cell's coordinate: 2^28 particles would have 2^5 cells a side each, if places in 64 bits allow.
 ///
 /// shape   1..32; in more than 64 dimensions 1, and the curve runs through the first 64
 constexpr unsigned hilbert_digits(std::size_t dimensions) {
-  return dimensions <= 2 ? 32 : dimensions >= 64 ? 1 : static_cast<unsigned>(64 / dimensions);
+  return static_cast<unsigned>(
+      std::clamp<std::size_t>(28 / dimensions + 5, 1, std::max<std::size_t>(64 / dimensions, 1)));
 }
 
 /// The place of a cell along Hilbert's curve through the cube of 2^digits cells a side: cells with consecutive places
