@@ -16,7 +16,7 @@ struct Dual {
 
   Dual() = default;
   explicit Dual(double constant) : value(constant) {}
-  Dual(double value_, double slope_) : value(value_), slope(slope_) {}
+  Dual(double at, double along) : value(at), slope(along) {}
 
   friend Dual operator+(Dual a, Dual b) { return {a.value + b.value, a.slope + b.slope}; }
   friend Dual operator-(Dual a, Dual b) { return {a.value - b.value, a.slope - b.slope}; }

@@ -1,5 +1,6 @@
 #include "mote/filter/sobol.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <boost/random/sobol.hpp>
@@ -47,7 +48,8 @@ Sobol::Sobol(std::size_t dimensions) {
 }
 
 ScrambledPoints::ScrambledPoints(const Sobol& sobol, std::size_t points, const Draws& draws)
-    : sobol_(&sobol), trees_((static_cast<unsigned>(std::bit_width(points)) + kTree - 1) / kTree) {
+    : sobol_(&sobol),
+      trees_((static_cast<unsigned>(std::bit_width(std::max<std::size_t>(points, 1) - 1)) + kTree - 1) / kTree) {
   for (std::size_t d = 0; d < sobol.dimensions(); ++d)
     keys_.push_back(
         keyed_generator({draws.seed, draws.step, Purpose::kPoints, static_cast<std::uint32_t>(d), draws.stream}, 0)
@@ -59,7 +61,8 @@ std::uint64_t ScrambledPoints::bits(std::size_t point, std::size_t dimension) co
   std::uint64_t scrambled = 0;
   std::uint64_t before = 1;  // the digits passed, behind a leading one
   unsigned left = kDigits;
-  for (unsigned tree = 0; tree < trees_; ++tree) {
+  unsigned tree = 0;
+  do {
     const std::uint64_t coins = word_at(keys_[dimension], before);
     std::uint64_t node = 1;
     for (unsigned k = 0; k < kTree; ++k) {
@@ -68,7 +71,7 @@ std::uint64_t ScrambledPoints::bits(std::size_t point, std::size_t dimension) co
       node = node << 1U | digit;
     }
     before = before << kTree | (node ^ std::uint64_t{1} << kTree);
-  }
+  } while (++tree < trees_);
   const unsigned done = kDigits - left;
   return scrambled << (64 - done) | word_at(keys_[dimension], before) >> done;
 }

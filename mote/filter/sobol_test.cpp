@@ -64,7 +64,7 @@ bool in_every_elementary_box(unsigned k, Bits&& bits) {
 TEST(ScrambledPoints, HaveOneInEveryElementaryBox) {
   const Sobol sobol(2);
   for (std::uint64_t seed = 1; seed <= 20; ++seed)
-    for (const unsigned k : {1U, 4U, 6U, 7U, 10U}) {
+    for (const unsigned k : {0U, 1U, 4U, 6U, 7U, 10U}) {
       const ScrambledPoints points(sobol, std::size_t{1} << k, {seed, 3});
       EXPECT_TRUE(in_every_elementary_box(k, [&](std::size_t i, std::size_t d) { return points.bits(i, d); })) << k;
     }
@@ -80,6 +80,15 @@ TEST(ScrambledPoints, HaveOneInEveryIntervalOfEveryCoordinate) {
     for (std::size_t i = 0; i < 512; ++i) intervals.insert(points.bits(i, d) >> (64 - 9));
     EXPECT_EQ(intervals.size(), 512U) << d;
   }
+}
+
+// As many points as the digits of a tree's depth can tell apart: nothing is shifted out.
+TEST(ScrambledPoints, TellTheMostPointsApart) {
+  const Sobol sobol(1);
+  const ScrambledPoints points(sobol, std::size_t{1} << 30U, {7, 1});
+  std::set<std::uint64_t> intervals;
+  for (std::size_t i = 0; i < 1024; ++i) intervals.insert(points.bits((std::size_t{1} << 30U) - 1 - i, 0) >> 54U);
+  EXPECT_EQ(intervals.size(), 1024U);
 }
 
 TEST(ScrambledPoints, FollowFromSeedStepAndStreamAlone) {
