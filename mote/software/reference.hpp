@@ -35,6 +35,16 @@ std::unique_ptr<Filter> with_proposal(const M& model, const Plan& plan) {
   return nullptr;
 }
 
+/// In which space a model has a transition density; one that names none has none.
+template <Model M>
+Density density_of(const M& model) {
+  if constexpr (HasTransition<M>) {
+    return model.density();
+  } else {
+    return Density::kNone;
+  }
+}
+
 /// Refuses a proposal whose weights the model cannot give.
 inline void check_density(Density density, const Plan& plan, const std::string& where) {
   if (density == Density::kNone)
@@ -83,7 +93,7 @@ std::unique_ptr<Filter> in_precision(const M& model, const Plan& plan, const std
   std::unique_ptr<Filter> filter;
   const auto offer = [&]<class G>(const G*) {
     if (plan.proposal != G::kName || filter) return;
-    if constexpr (!std::is_same_v<G, Prior>) check_density(model.density(), plan, where);
+    if constexpr (!std::is_same_v<G, Prior>) check_density(density_of(model), plan, where);
     filter = with_proposal<R, G>(model, plan);
   };
   if constexpr (requires { typename M::Proposals; }) {
