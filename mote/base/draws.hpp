@@ -33,7 +33,8 @@ enum class Purpose : std::uint32_t {
   kReset,
   kTest,
   kTruth,
-  kBootstrap
+  kBootstrap,
+  kPoints
 };
 
 /// Where a block of draws lives.

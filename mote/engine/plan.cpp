@@ -53,14 +53,23 @@ std::string_view name_of(FilterKind filter) {
       return "auxiliary";
     case FilterKind::kDistributed:
       return "distributed";
+    case FilterKind::kSqmc:
+      return "sqmc";
+    case FilterKind::kEkf:
+      return "ekf";
+    case FilterKind::kUkf:
+      return "ukf";
   }
   return "";
 }
 
 double bytes_needed(const Plan& plan, std::size_t dimensions) {
+  if (is_gaussian(plan.filter))
+    return static_cast<double>(plan.particles + 2 * dimensions) * (static_cast<double>(dimensions) * 32 + 16);
   const double state = static_cast<double>(dimensions) * (plan.precision == Precision::kFloat ? 4 : 8);
   const auto n = static_cast<double>(plan.particles);
   if (plan.filter == FilterKind::kSisr || plan.filter == FilterKind::kDistributed) return n * (state + 48);
+  if (plan.filter == FilterKind::kSqmc) return n * (2 * state + 48);
   const auto draws = static_cast<double>(plan.chain.draws == 0 ? plan.particles : plan.chain.draws);
   // `auto` may ask for as many as Q in each chain
   const double burn_in =

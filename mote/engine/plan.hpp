@@ -8,7 +8,7 @@
 
 namespace mote {
 
-enum class FilterKind { kSisr, kImh, kAuxiliary, kDistributed };
+enum class FilterKind { kSisr, kImh, kAuxiliary, kDistributed, kSqmc, kEkf, kUkf };
 enum class Precision { kFloat, kDouble };
 
 /// What to run. Defaults are the papers' filters.
@@ -26,6 +26,9 @@ struct Plan {
 
 /// Name of a filter as on the command line.
 std::string_view name_of(FilterKind filter);
+
+/// Whether a filter keeps one Gaussian law instead of particles.
+inline bool is_gaussian(FilterKind filter) { return filter == FilterKind::kEkf || filter == FilterKind::kUkf; }
 
 /// Bytes that a run of the reference engine needs for states of `dimensions` components, an upper bound.
 double bytes_needed(const Plan& plan, std::size_t dimensions);

@@ -36,7 +36,8 @@ bool names(const std::string& sentence, const std::string& option) {
 }
 
 TEST(Plan, DefaultsAreAccepted) {
-  for (const auto filter : {FilterKind::kSisr, FilterKind::kImh, FilterKind::kAuxiliary, FilterKind::kDistributed})
+  for (const auto filter : {FilterKind::kSisr, FilterKind::kImh, FilterKind::kAuxiliary, FilterKind::kDistributed,
+                            FilterKind::kSqmc, FilterKind::kEkf, FilterKind::kUkf})
     EXPECT_EQ(refusal_of(filter, [](Plan&) {}), "");
 }
 
@@ -88,6 +89,9 @@ TEST(Plan, FiltersHaveTheirCommandLineNames) {
   EXPECT_EQ(name_of(FilterKind::kImh), "imh");
   EXPECT_EQ(name_of(FilterKind::kAuxiliary), "auxiliary");
   EXPECT_EQ(name_of(FilterKind::kDistributed), "distributed");
+  EXPECT_EQ(name_of(FilterKind::kSqmc), "sqmc");
+  EXPECT_EQ(name_of(FilterKind::kEkf), "ekf");
+  EXPECT_EQ(name_of(FilterKind::kUkf), "ukf");
 }
 
 TEST(Plan, BytesCoverTheArraysThatAFilterHolds) {
@@ -96,8 +100,14 @@ TEST(Plan, BytesCoverTheArraysThatAFilterHolds) {
   EXPECT_GE(bytes_needed(plan, 4), 1e6 * (4 * 8 + 2 * 8));
   plan.precision = Precision::kFloat;
   EXPECT_GE(bytes_needed(plan, 4), 1e6 * (4 * 4 + 2 * 8));
-  plan.filter = FilterKind::kImh;
   plan.precision = Precision::kDouble;
+  plan.filter = FilterKind::kSqmc;
+  EXPECT_GE(bytes_needed(plan, 4), 1e6 * (2 * 4 * 8 + 3 * 8 + 16));
+  for (const auto filter : {FilterKind::kEkf, FilterKind::kUkf}) {
+    plan.filter = filter;
+    EXPECT_GE(bytes_needed(plan, 4), 1e6 * (3 * 4 * 8 + 8)) << "points, their standard ones, and a product";
+  }
+  plan.filter = FilterKind::kImh;
   plan.chain.chains = 8;
   plan.chain.burn_in = 1000;
   EXPECT_GE(bytes_needed(plan, 4), 1e6 * (4 * 8 + 4) + 1008000.0 * (4 * 8 + 16));

@@ -27,6 +27,16 @@ EstimateRow estimated(Step t, const StepReport& report, const Filter& filter, co
   return row;
 }
 
+std::string what_collapsed(const Plan& plan) {
+  if (is_gaussian(plan.filter))
+    return "its law gives this step's observation the density zero. Pass a wider model, or --on-collapse keep or "
+           "reset.";
+  return fmt::format(
+      "every one of {} particles has weight zero for this step's observation. Pass more --particles, a wider model, or "
+      "--on-collapse keep or reset.",
+      plan.particles);
+}
+
 }  // namespace
 
 RunRecord run(Filter& filter, const Plan& plan, const Recording& recording, const RunRequest& request) {
@@ -46,11 +56,8 @@ RunRecord run(Filter& filter, const Plan& plan, const Recording& recording, cons
     const bool observed = !step.rows.empty();
     StepReport report = observed ? filter.update(t, step.rows) : filter.predict(t);
     if (report.collapsed && plan.on_collapse == OnCollapse::kStop)
-      throw Refusal(
-          ExitCode::kCollapsed,
-          fmt::format("{}: t = {}: the filter collapsed: every one of {} particles has weight zero for this "
-                      "step's observation. Pass more --particles, a wider model, or --on-collapse keep or reset.",
-                      request.where, t, plan.particles));
+      throw Refusal(ExitCode::kCollapsed,
+                    fmt::format("{}: t = {}: the filter collapsed: {}", request.where, t, what_collapsed(plan)));
     record.rows.push_back(estimated(t, report, filter, request, scratch));
     record.step_seconds += watch.seconds();
     if (request.dump) request.dump(t, filter.weighted());

@@ -4,7 +4,9 @@
 
 #include "mote/base/refusal.hpp"
 #include "mote/filter/imh.hpp"
+#include "mote/filter/kalman.hpp"
 #include "mote/filter/sisr.hpp"
+#include "mote/filter/sqmc.hpp"
 #include "mote/model/local_level.hpp"
 
 namespace mote {
@@ -68,6 +70,7 @@ TEST(Run, PredictsAcrossGapsAndStepsWithoutObservation) {
   expect_gaps_and_missing_rows([] { return make_sisr(kModel, kParticles, 5); });
   expect_gaps_and_missing_rows([] { return make_imh(kModel, kParticles, 5); });
   expect_gaps_and_missing_rows([] { return make_sisr<float>(kModel, kParticles, 5); });
+  expect_gaps_and_missing_rows([] { return make_sqmc(kModel, kParticles, 5); });
 }
 
 // Two measurements y1, y2 of variance r are one of mean (y1 + y2) / 2 and variance r / 2, up to a constant of the
@@ -125,6 +128,8 @@ std::vector<MakeDoomed> doomed_filters(const Doomed& model) {
       [=](OnCollapse c) { return make_sisr<float>(model, kParticles, 2, {}, c); },
       [=](OnCollapse c) { return make_distributed(model, kParticles, 2, groups, {}, c); },
       [=](OnCollapse c) { return make_imh(model, kParticles, 2, {.chains = 2, .start = ChainStart::kWeighted}, c); },
+      [=](OnCollapse c) { return make_sqmc(model, kParticles, 2, c); },
+      [=](OnCollapse c) { return make_sqmc<float>(model, kParticles, 2, c); },
       [=](OnCollapse c) { return make_imh(model, kParticles, 2, {.burn_in = std::nullopt}, c); },
       [=](OnCollapse c) {
         return make_auxiliary(model, kParticles, 2, {.parent_weights = ParentWeights::kLookahead}, c);
@@ -142,6 +147,22 @@ TEST(Run, ACollapseStopsWithItsOwnExitCode) {
       EXPECT_NE(std::string(refusal.what()).find("t = 2"), std::string::npos);
       EXPECT_NE(std::string(refusal.what()).find("--on-collapse"), std::string::npos);
     }
+  }
+}
+
+// A Kalman filter has no particles to weigh: the sentence says what it has.
+TEST(Run, ACollapseOfALawIsSaidOfTheLaw) {
+  const auto filter = make_ekf(kModel, kParticles);
+  Plan plan;
+  plan.filter = FilterKind::kEkf;
+  Recording recording;
+  recording.steps = {{1, {seen(1e300)}}};
+  try {
+    run(*filter, plan, recording, request_for(kModel.states()));
+    ADD_FAILURE() << "went on";
+  } catch (const Refusal& refusal) {
+    EXPECT_EQ(refusal.code(), ExitCode::kCollapsed);
+    EXPECT_NE(std::string(refusal.what()).find("density zero"), std::string::npos);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "mote/base/permutation.hpp"
 #include "mote/base/scan.hpp"
 #include "mote/filter/chain.hpp"
+#include "mote/filter/still.hpp"
 #include "mote/filter/weigh.hpp"
 
 namespace mote {
@@ -86,8 +87,7 @@ class MetropolisFilter final : public Filter {
   }
 
   StepReport update(Step t, Rows<double> rows) override {
-    std::vector<Row<R>> y;
-    for (const auto& row : rows) y.push_back(row.template as<R>());
+    const auto y = rows_as<R>(rows);
     propose_all(t, y);
     return judged(t, y);
   }
@@ -190,10 +190,7 @@ class MetropolisFilter final : public Filter {
   /// docs/filters.md (F21).
   void prepare_parents(Step t, Rows<R> y) {
     if (options_.parent_weights == ParentWeights::kUniform) return;
-    struct Still {
-      R normal() { return R(0); }
-      R uniform() { return R(0.5); }
-    } still;
+    StillDraw<R> still;
     const std::size_t n = set_.size();
     parent_weights_.resize(n);
     auto before = blank_state<R>(model_);

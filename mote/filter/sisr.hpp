@@ -4,8 +4,7 @@
 
 #include <memory>
 
-#include "mote/filter/select.hpp"
-#include "mote/filter/weigh.hpp"
+#include "mote/filter/settle.hpp"
 
 namespace mote {
 
@@ -36,16 +35,14 @@ class ImportanceFilter final : public Filter {
     move(model_, t, cloud_.x, draws(t));
     // carried weights stay as they are: after a w / a selection their sum is 1 only in the mean, and belongs to the
     // evidence
-    return judged(judge(cloud_.log_weights, cloud_.weights), false);
+    return told(settled(judge(cloud_.log_weights, cloud_.weights), false));
   }
 
   StepReport update(Step t, Rows<double> rows) override {
-    const auto y = typed(rows);
+    const auto y = rows_as<R>(rows);
     propose<M, R>(model_, proposal_, t, y, cloud_.x, cloud_.log_weights, draws(t));
     weigh<M, R>(model_, t, y, cloud_.x, cloud_.log_weights);
-    const Judgement judgement = normalise(cloud_.log_weights, cloud_.weights);
-    if (!judgement.collapsed) return judged(judgement, true);
-    return recovered(t, y);
+    return told(settle<M, R>(model_, t, y, cloud_, draws(t), on_collapse_));
   }
 
   void select(Step t, StepReport& report) override {
@@ -57,31 +54,9 @@ class ImportanceFilter final : public Filter {
  private:
   Draws draws(Step t) const { return {seed_, static_cast<std::uint32_t>(t)}; }
 
-  static std::vector<Row<R>> typed(Rows<double> rows) {
-    std::vector<Row<R>> all;
-    for (const auto& row : rows) all.push_back(row.template as<R>());
-    return all;
-  }
-
-  StepReport judged(const Judgement& judgement, bool observed) {
-    total_ = judgement.total;
-    StepReport report;
-    report.log_evidence = observed ? judgement.log_sum : 0;
-    report.ess = judgement.ess;
-    return report;
-  }
-
-  StepReport recovered(Step t, const std::vector<Row<R>>& y) {
-    cloud_.spread();
-    if (on_collapse_ == OnCollapse::kReset) {
-      draw_prior(model_, cloud_.x, draws(t), Purpose::kReset);
-      weigh<M, R>(model_, t, y, cloud_.x, cloud_.log_weights);
-      if (normalise(cloud_.log_weights, cloud_.weights).collapsed) cloud_.spread();
-    }
-    StepReport report = judged(normalise(cloud_.log_weights, cloud_.weights), false);
-    report.log_evidence = -kInfinity;
-    report.collapsed = true;
-    return report;
+  StepReport told(const Settled& step) {
+    total_ = step.total;
+    return step.report;
   }
 
   M model_;

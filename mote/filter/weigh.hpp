@@ -2,12 +2,21 @@
 /// Weigh: likelihoods onto log weights, and what the weights say.
 
 #include <span>
+#include <vector>
 
 #include "mote/base/log_weights.hpp"
 #include "mote/filter/filter.hpp"
 #include "mote/filter/propose.hpp"
 
 namespace mote {
+
+/// The rows of a step in the number type R.
+template <class R>
+std::vector<Row<R>> rows_as(Rows<double> rows) {
+  std::vector<Row<R>> all;
+  for (const auto& row : rows) all.push_back(row.template as<R>());
+  return all;
+}
 
 /// sum over the rows of a step of log p(y | x); docs/filters.md (F26).
 template <class R, Model M>

@@ -69,7 +69,10 @@ struct Bearings {
 
   std::vector<Quantity> states() const { return {{"x", "m"}, {"vx", "m/s"}, {"y", "m"}, {"vy", "m/s"}}; }
   std::vector<Column> columns() const {
-    return {{"bearing", "rad"}, {"sensor_x", "m", true}, {"sensor_y", "m", true}, {"sensor_heading", "rad", true}};
+    return {{.name = "bearing", .unit = "rad", .angle = true},
+            {"sensor_x", "m", true},
+            {"sensor_y", "m", true},
+            {"sensor_heading", "rad", true}};
   }
   std::vector<Function<Bearings>> functions() const {
     return {{{"speed", "m/s"}, [](const auto& x) { return std::hypot(x[1], x[3]); }},

@@ -66,7 +66,7 @@ struct Doa {
   std::vector<Column> columns() const {
     std::vector<Column> all;
     for (std::size_t m = 1; m <= frame; ++m)
-      all.push_back({.name = "doa" + std::to_string(m), .unit = "rad", .state = "theta"});
+      all.push_back({.name = "doa" + std::to_string(m), .unit = "rad", .state = "theta", .angle = true});
     return all;
   }
   Density density() const {

@@ -37,6 +37,7 @@ struct Column {
   bool input = false;
   double fallback = 0;     ///< the value of an input whose column is missing
   std::string state = {};  ///< the state that an observation measures directly, if any: they are plotted together
+  bool angle = false;      ///< an observation known up to whole turns
 };
 
 /// One row of data: the model's observation columns in order, then its inputs. An observation may be missing.

@@ -27,7 +27,8 @@ std::vector<double> means(const Plan& plan) {
 
 std::vector<Plan> plans() {
   std::vector<Plan> all;
-  for (const auto filter : {FilterKind::kSisr, FilterKind::kImh, FilterKind::kAuxiliary, FilterKind::kDistributed})
+  for (const auto filter :
+       {FilterKind::kSisr, FilterKind::kImh, FilterKind::kAuxiliary, FilterKind::kDistributed, FilterKind::kSqmc})
     for (const auto precision : {Precision::kDouble, Precision::kFloat})
       for (const char* proposal : {"prior", "observation", "observation-sum"}) {
         Plan plan;
@@ -89,7 +90,7 @@ TEST(Reference, RefusesAProposalThatTheModelDoesNotHave) {
 }
 
 TEST(Reference, RefusesAProposalWithoutDensity) {
-  for (const auto filter : {FilterKind::kSisr, FilterKind::kImh, FilterKind::kAuxiliary}) {
+  for (const auto filter : {FilterKind::kSisr, FilterKind::kImh, FilterKind::kAuxiliary, FilterKind::kSqmc}) {
     EXPECT_NE(refusal(Ungm<1>{{0.5, 1.2, 0, 1, 5}}, filter, "observation").find("no transition density"),
               std::string::npos);
     EXPECT_NE(refusal(LocalLevel{{0, 1, 0, 1}}, filter, "optimal").find("no transition density"), std::string::npos);
@@ -104,10 +105,67 @@ TEST(Reference, RefusesAProposalWithoutDensity) {
   EXPECT_NE(refusal(LinearGaussian(p), FilterKind::kSisr, "optimal").find("no transition density"), std::string::npos);
 }
 
+/// A model that draws more numbers a step than Sobol' points have coordinates.
+struct Spendthrift {
+  template <class S>
+  using State = std::array<S, 1>;
+  std::vector<Quantity> states() const { return {{"x", ""}}; }
+  std::vector<Column> columns() const { return {{"y", ""}}; }
+  template <class S, class D>
+  State<S> initial(D& draw) const {
+    return {draw.normal()};
+  }
+  template <class S, class D>
+  State<S> next(Step, const State<S>& before, D& draw) const {
+    S sum = before[0];
+    for (int i = 0; i < 4000; ++i) sum = sum + draw.normal();
+    return {sum};
+  }
+  template <class S>
+  S log_likelihood(Step, const State<S>&, const Row<S>&) const {
+    return S(0);
+  }
+};
+
+TEST(Reference, KalmanFiltersAreTheSameForEverySeedAndPrecision) {
+  for (const auto filter : {FilterKind::kEkf, FilterKind::kUkf}) {
+    Plan plan;
+    plan.filter = filter;
+    const auto first = means(plan);
+    plan.seed = 2;
+    plan.precision = Precision::kFloat;
+    plan.particles = 10;
+    const auto second = means(plan);
+    for (std::size_t k = 0; k < first.size(); ++k) EXPECT_NEAR(second[k], first[k], 1e-12);
+  }
+  Plan ekf;
+  ekf.filter = FilterKind::kEkf;
+  Plan ukf;
+  ukf.filter = FilterKind::kUkf;
+  EXPECT_NE(means(ekf), means(ukf));
+}
+
+TEST(Reference, RefusesKalmanFiltersOfOtherThanGaussianNoise) {
+  Bearings heavy;
+  heavy.p.dof = 3;
+  for (const auto filter : {FilterKind::kEkf, FilterKind::kUkf}) {
+    EXPECT_NE(refusal(heavy, filter, "prior").find("whose noise is Gaussian"), std::string::npos);
+    EXPECT_NE(refusal(Spendthrift{}, filter, "prior").find("without observe()"), std::string::npos);
+    EXPECT_EQ(refusal(Bearings{}, filter, "prior"), "");
+    EXPECT_EQ(refusal(Doa{}, filter, "prior"), "");
+  }
+}
+
+TEST(Reference, RefusesMoreDrawsThanPointsHaveCoordinates) {
+  EXPECT_NE(refusal(Spendthrift{}, FilterKind::kSqmc, "prior").find("3667"), std::string::npos);
+  EXPECT_EQ(refusal(Spendthrift{}, FilterKind::kSisr, "prior"), "");
+}
+
 TEST(Reference, RefusesMixtureSumsOverNoiseDensities) {
   EXPECT_NE(refusal(Bearings{}, FilterKind::kImh, "wide").find("--filter auxiliary"), std::string::npos);
   EXPECT_EQ(refusal(Bearings{}, FilterKind::kAuxiliary, "wide"), "");
   EXPECT_EQ(refusal(Bearings{}, FilterKind::kSisr, "wide"), "");
+  EXPECT_EQ(refusal(Bearings{}, FilterKind::kSqmc, "wide"), "");
   EXPECT_EQ(refusal(Bearings{}, FilterKind::kImh, "prior"), "");
 }
 

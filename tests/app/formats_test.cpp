@@ -42,7 +42,7 @@ TEST(Estimates, HaveOneRowPerDistinctTime) {
 
 TEST(Particles, HaveWeightsThatSumToOneAndGiveTheMeans) {
   for (const std::string filter :
-       {"sisr --ess-threshold 0.5", "imh --improved", "auxiliary", "distributed --groups 4"}) {
+       {"sisr --ess-threshold 0.5", "imh --improved", "auxiliary", "distributed --groups 4", "sqmc", "ekf", "ukf"}) {
     const Scratch scratch;
     const Ended ended = scratch.shell(
         "mote simulate ungm --steps 8 --seed 2 --out d.csv && "
@@ -111,6 +111,9 @@ TEST(Estimates, HaveTheColumnsOfTheDoor) {
   const std::string states = "t,theta_mean,theta_sd,q_mean,q_sd,phi_mean,phi_sd,ess,log_evidence";
   const std::map<std::string, std::string> wanted{{"sisr", states + "\n"},
                                                   {"distributed --groups 2", states + "\n"},
+                                                  {"sqmc", states + "\n"},
+                                                  {"ekf", states + "\n"},
+                                                  {"ukf --estimate 'q0.9(theta)'", states + ",q0.9(theta)\n"},
                                                   {"imh", states + ",acceptance\n"},
                                                   {"auxiliary", states + ",acceptance\n"},
                                                   {"imh --estimate 'q0.9(theta)' --estimate 'P(q<0)' --estimate phi",

@@ -22,8 +22,9 @@ std::vector<MemoryCase> cases() {
           "distributed --groups 8 --exchange replace", "distributed --groups 8 --exchange swap",
           "distributed --groups 8 --group-resampling global"})
       add("--filter " + filter + " --resampler " + std::string(scheme.name));
-  for (const std::string filter : {"imh", "imh --improved", "imh --burn-in auto", "imh --parents sweep", "auxiliary",
-                                   "auxiliary --improved", "auxiliary --parent-weights lookahead"})
+  for (const std::string filter :
+       {"imh", "imh --improved", "imh --burn-in auto", "imh --parents sweep", "auxiliary", "auxiliary --improved",
+        "auxiliary --parent-weights lookahead", "sqmc", "sqmc --precision float", "ekf", "ukf"})
     add("--filter " + filter);
   return all;
 }

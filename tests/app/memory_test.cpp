@@ -20,10 +20,13 @@ std::vector<MemoryCase> cases() {
   std::vector<MemoryCase> all;
   for (const Scheme& scheme : schemes())
     all.push_back({"ungm", 2'000'000, 1, "--resampler " + std::string(scheme.name)});
-  for (const std::string filter : {"sisr", "imh --improved", "imh --burn-in auto",
-                                   "auxiliary --parent-weights lookahead", "distributed --groups 8 --exchange swap"})
+  for (const std::string filter :
+       {"sisr", "imh --improved", "imh --burn-in auto", "auxiliary --parent-weights lookahead",
+        "distributed --groups 8 --exchange swap", "sqmc", "ukf"})
     all.push_back({"bearings", 500'000, 4, "--filter " + filter});
   all.push_back({"ungm", 2'000'000, 1, "--filter imh"});
+  all.push_back({"ungm", 2'000'000, 1, "--filter sqmc"});
+  all.push_back({"ungm", 2'000'000, 1, "--filter ekf"});
   all.push_back({"ungm", 2'000'000, 1, "--estimate median(x)"});
   return all;
 }

@@ -26,6 +26,27 @@ TEST(Growth, ErrorsToTheExactMeanAreTheGoals) {
   EXPECT_GT(errors.rmse(3).mean(), 0.73) << "the twin";
 }
 
+// claim    quasi-random points bring the median square error to the exact mean down to 0.15 of systematic SISR's, in
+//          double and float
+// referee  the point-mass filter
+// design   400 recordings of 100 steps, N = 1000
+// risk     none: fixed seeds. Measured 0.113 with a standard error of 0.009: new seeds would fail one time in 10^4. The
+//          twin (SISR with other seeds, 1.06) must be caught
+TEST(Growth, QuasiRandomPointsBeatRandomNumbers) {
+  const Ungm<1> model;
+  std::vector<Maker> makers{growth_filters().front()};
+  makers.push_back({"sqmc", [=](std::size_t n, std::uint64_t seed) { return make_sqmc(model, n, seed); }});
+  makers.push_back(
+      {"sqmc, float", [=](std::size_t n, std::uint64_t seed) { return make_sqmc<float>(model, n, seed); }});
+  makers.push_back({"twin: sisr with other seeds",
+                    [=](std::size_t n, std::uint64_t seed) { return make_sisr(model, n, seed + 100000); }});
+  const PairedErrors errors = paired_errors(makers, 400);
+  print(errors);
+  EXPECT_LE(errors.ratio_of_medians(1), 0.15);
+  EXPECT_LE(errors.ratio_of_medians(2), 0.15);
+  EXPECT_GT(errors.ratio_of_medians(3), 0.15) << "the twin";
+}
+
 /// Mean over `runs` runs of the estimated means of a short recording against the exact ones: worst |difference| /
 /// (bound + 4.89 standard errors).
 double worst_share(const Maker& maker, const Recording& recording, const std::vector<double>& exact,

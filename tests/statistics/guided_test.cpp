@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "mote/model/bearings.hpp"
-#include "tests/referees/kalman.hpp"
+#include "mote/referee/kalman.hpp"
 #include "tests/statistics/linear_models.hpp"
 #include "tests/statistics/makers.hpp"
 

@@ -54,6 +54,10 @@ std::vector<Maker> unbiased_filters(const M& model, bool every_scheme) {
   distributed("append", groups_of(8, Exchange::kAppend));
   distributed("append, exponent 0.5", groups_of(8, Exchange::kAppend), {.exponent = 0.5});
   distributed("global", groups_of(8, Exchange::kNone, true));
+  all.push_back({"sqmc", [=](std::size_t n, std::uint64_t seed) { return make_sqmc(model, n, seed); }});
+  all.push_back({"sqmc, float", [=](std::size_t n, std::uint64_t seed) { return make_sqmc<float>(model, n, seed); }});
+  all.push_back(
+      {"sqmc, optimal", [=](std::size_t n, std::uint64_t seed) { return make_sqmc<double, Optimal>(model, n, seed); }});
   const ChainOptions start{.start = ChainStart::kWeighted};
   const ChainOptions lookahead{.start = ChainStart::kWeighted, .parent_weights = ParentWeights::kLookahead};
   all.push_back(

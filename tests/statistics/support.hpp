@@ -12,6 +12,7 @@
 #include "mote/engine/run.hpp"
 #include "mote/filter/imh.hpp"
 #include "mote/filter/sisr.hpp"
+#include "mote/filter/sqmc.hpp"
 
 namespace mote::statistics {
 

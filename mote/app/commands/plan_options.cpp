@@ -9,8 +9,7 @@
 namespace mote {
 namespace {
 
-const std::vector<std::string> kFilters{"sisr", "imh", "auxiliary", "distributed"};
-const std::vector<std::string> kFiltersLater{"sqmc", "ekf", "ukf"};
+const std::vector<std::string> kFilters{"sisr", "imh", "auxiliary", "distributed", "sqmc", "ekf", "ukf"};
 const std::vector<std::string> kEngines{"reference"};
 const std::vector<std::string> kEnginesLater{"simd", "pipeline", "mpi"};
 constexpr long long kMost = static_cast<long long>(kMostParticles);
@@ -33,11 +32,6 @@ void refuse_what_is_not_there(const Arguments& arguments) {
         fmt::format("{}: --engine {}: this version of mote does not have that engine yet. Pass --engine reference.",
                     arguments.where(), engine));
   arguments.choice("--engine", kEngines);
-  const std::string filter = arguments.text("--filter");
-  if (std::find(kFiltersLater.begin(), kFiltersLater.end(), filter) != kFiltersLater.end())
-    throw Refusal(ExitCode::kWrongUse, fmt::format("{}: --filter {}: this version of mote does not have that filter "
-                                                   "yet. Pass --filter {}.",
-                                                   arguments.where(), filter, fmt::join(kFilters, ", ")));
 }
 
 ChainOptions chain_from(const Arguments& arguments, FilterKind filter) {
@@ -76,8 +70,9 @@ std::vector<OptionSpec> plan_options() {
   const std::string groups = "Groups (distributed)";
   const std::string engine = "Engine";
   return {
-      {"--filter", "NAME", "sisr", "sisr, imh, auxiliary or distributed", filter},
-      {"-n,--particles", "N", "1000", "particles, from 1 to 268435456", filter},
+      {"--filter", "NAME", "sisr", "sisr, imh, auxiliary, distributed, sqmc, ekf or ukf", filter},
+      {"-n,--particles", "N", "1000",
+       "particles, from 1 to 268435456; ekf, ukf: points that stand for their Gaussian in the outputs", filter},
       {"--seed", "S", "1", "seed, an integer of at least 0; same seed, same result", filter},
       {"--resampler", "NAME", "systematic", fmt::format("{}", fmt::join(scheme_names(), ", ")), filter},
       {"--ess-threshold", "X", "1", "resample when ESS <= X N, X from 0 to 1; 1 = every step", filter},
@@ -147,7 +142,13 @@ std::vector<std::string> notes_on_unread(const Arguments& arguments, const Plan&
   const std::string filter = fmt::format("--filter {}", name_of(plan.filter));
   note(!chains, {"--draws", "--burn-in", "--chains", "--parents", "--chain-start", "--parent-weights"},
        filter + " has no chains");
-  note(chains, {"--resampler", "--ess-threshold", "--selection-exponent"}, filter + " does not resample");
+  note(chains || is_gaussian(plan.filter), {"--resampler", "--ess-threshold", "--selection-exponent"},
+       filter + " does not resample");
+  note(plan.filter == FilterKind::kSqmc, {"--resampler", "--ess-threshold", "--selection-exponent"},
+       filter + " chooses parents by its points at every step");
+  note(is_gaussian(plan.filter), {"--proposal"}, filter + " proposes nothing");
+  note(is_gaussian(plan.filter), {"--seed"}, filter + " draws nothing");
+  note(is_gaussian(plan.filter), {"--precision"}, filter + " computes in double");
   note(!groups, {"--groups", "--group-resampling", "--exchange", "--exchange-count", "--group-weights"},
        filter + " has no groups");
   note(groups && plan.groups.global, {"--exchange", "--exchange-count", "--group-weights"},

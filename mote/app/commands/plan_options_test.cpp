@@ -36,7 +36,7 @@ TEST(Plan, ImprovedIsShortForThreeOptionsThatMayBeOverruled) {
 }
 
 TEST(Plan, TakesEveryWordOfEveryChoice) {
-  for (const std::string filter : {"sisr", "imh", "auxiliary", "distributed"})
+  for (const std::string filter : {"sisr", "imh", "auxiliary", "distributed", "sqmc", "ekf", "ukf"})
     EXPECT_EQ(name_of(plan({"--filter", filter}).filter), filter);
   for (const Scheme& scheme : schemes())
     EXPECT_EQ(plan({"--resampler", std::string(scheme.name)}).selection.scheme->name, scheme.name);
@@ -66,6 +66,9 @@ TEST(NotesOnUnread, TellEveryOptionThatHasNoSay) {
   EXPECT_EQ(notes({"--filter", "imh", "--chains", "2", "--burn-in", "3"}), 0U);
   EXPECT_EQ(notes({"--filter", "imh", "--resampler", "alias", "--ess-threshold", "0.5"}), 2U);
   EXPECT_EQ(notes({"--filter", "distributed", "--groups", "4", "--exchange", "swap", "--exchange-count", "2"}), 0U);
+  EXPECT_EQ(notes({"--filter", "sqmc", "--resampler", "alias", "--ess-threshold", "0.5", "--chains", "2"}), 3U);
+  EXPECT_EQ(notes({"--filter", "ekf", "--resampler", "alias", "--seed", "2", "--precision", "float"}), 3U);
+  EXPECT_EQ(notes({"--filter", "ukf", "--proposal", "prior", "-n", "50", "--on-collapse", "keep"}), 1U);
 }
 
 }  // namespace
