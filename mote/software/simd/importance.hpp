@@ -6,32 +6,13 @@
 /// Selection only notes where children begin; the next step writes them as it moves them. So a step has one barrier,
 /// after which the sums of the blocks are added in order: results do not depend on the number of threads.
 
-#include <memory>
-#include <optional>
-
 #include "mote/filter/select.hpp"
-#include "mote/filter/weigh.hpp"
-#include "mote/lanes/draws.hpp"
-#include "mote/lanes/functions.hpp"
+#include "mote/software/simd/block_pass.hpp"
 #include "mote/software/simd/survivors.hpp"
 #include "mote/software/threads.hpp"
 
 namespace mote {
 inline namespace HWY_NAMESPACE {
-
-/// Components of a model's state, where the compiler knows them; else 0.
-template <class M>
-inline constexpr std::size_t kComponents = [] {
-  if constexpr (requires { std::tuple_size<StateOf<M, double>>::value; })
-    return std::tuple_size<StateOf<M, double>>::value;
-  return std::size_t{0};
-}();
-
-/// What a filter sums up in passing.
-enum class Estimates {
-  kMeans,    ///< means; standard deviations are NaN
-  kSpreads,  ///< means and standard deviations
-};
 
 /// SISR on vectors: step by step ImportanceFilter with a WholeSelector, within rounding and the normal table's error.
 /// Weights are of type R, each block in a scale of its own.
@@ -44,30 +25,20 @@ enum class Estimates {
 template <Model M, class R, class G = Prior>
 class VectorImportanceFilter final : public Filter {
  public:
-  /// Small states leave registers for two vectors side by side.
-  static constexpr std::size_t kBytes = kComponents<M> == 1 || kComponents<M> == 2 ? (std::is_same_v<R, double> ? 128 : 64) : 64;
-  using V = lanes::Vector<R, kBytes>;
-  using State = StateOf<M, V>;
-
   VectorImportanceFilter(M model, std::size_t particles, std::uint64_t seed, const SelectionOptions& selection,
                          OnCollapse on_collapse, std::size_t threads, Estimates estimates = Estimates::kSpreads)
-      : model_(std::move(model)),
-        proposal_(make_proposal<G>(model_)),
-        seed_(seed),
+      : seed_(seed),
         selection_(selection),
         on_collapse_(on_collapse),
-        spreads_(estimates == Estimates::kSpreads),
         carries_(selection.ess_threshold < 1 || selection.exponent != 1),
         crew_(threads),
-        now_(model_.states().size(), particles),
-        next_(model_.states().size(), particles),
-        sums_(particles, model_.states().size()) {
+        now_(model.states().size(), particles),
+        next_(model.states().size(), particles),
+        pass_(std::move(model), particles, now_, estimates == Estimates::kSpreads) {
     weights_.resize(whole_blocks());
     next_weights_.resize(whole_blocks());
     if (carries_) log_weights_.resize(whole_blocks());
-    for (std::size_t k = 0; k < crew_.shares(sums_.blocks()); ++k) desks_.emplace_back(now_.dimensions());
-    note_pattern<Source::kPrior>();
-    note_pattern<Source::kModel>();
+    for (std::size_t k = 0; k < crew_.shares(pass_.blocks()); ++k) desks_.emplace_back(now_.dimensions());
     pass<Source::kPrior, Weights::kEqual>(0, Purpose::kPrior);
   }
 
@@ -77,23 +48,23 @@ class VectorImportanceFilter final : public Filter {
     else
       pass<Source::kModel, Weights::kKept>(t, Purpose::kMove);
     StepReport report;
-    report.ess = totals_.ess();
+    report.ess = pass_.totals().ess();
     return report;
   }
 
   StepReport update(Step t, Rows<double> rows) override {
-    take(rows);
+    pass_.take(rows, now_);
     const double mass = level_ ? std::log(static_cast<double>(now_.size())) : 0;
     if (level_)
       pass<Source::kProposal, Weights::kFresh>(t, Purpose::kMove);
     else
       pass<Source::kProposal, Weights::kCarried>(t, Purpose::kMove);
     level_ = false;
-    if (totals_.collapsed()) return recovered(t);
-    mass_ = totals_.log_sum();
+    if (pass_.totals().collapsed()) return recovered(t);
+    mass_ = pass_.totals().log_sum();
     StepReport report;
     report.log_evidence = mass_ - mass;
-    report.ess = totals_.ess();
+    report.ess = pass_.totals().ess();
     return report;
   }
 
@@ -102,7 +73,7 @@ class VectorImportanceFilter final : public Filter {
     if (!report.selected) return;
     const Draws draws{seed_, static_cast<std::uint32_t>(t)};
     if (selection_.scheme == &systematic_scheme() && selection_.exponent == 1) {
-      sums_.map_children(totals_, draws.uniform(Purpose::kSelect), map_);
+      pass_.sums().map_children(pass_.totals(), draws.uniform(Purpose::kSelect), map_);
       parents_ = Parents::kMapped;
       level_ = true;
     } else {
@@ -112,88 +83,35 @@ class VectorImportanceFilter final : public Filter {
 
   WeightedSet weighted() const override {
     shown_.resize(now_.size());
-    for (std::size_t b = 0; b < sums_.blocks(); ++b) {
-      const double scale = totals_.scale_of(sums_.shift(b));
+    for (std::size_t b = 0; b < pass_.blocks(); ++b) {
+      const double scale = pass_.totals().scale_of(pass_.sums().shift(b));
       for (std::size_t i = b * kBlock; i < std::min((b + 1) * kBlock, now_.size()); ++i)
         shown_[i] = static_cast<double>(weights_[i]) * scale;
     }
-    return {&now_, shown_, totals_.weight};
+    return {&now_, shown_, pass_.totals().weight};
   }
 
   Moments moments(std::size_t d, bool angle) const override {
     if (angle) return circular_moments(d);
-    Moments both = sums_.moments(totals_, d);
-    if (!spreads_) both.sd = kNaN;
-    return both;
+    return pass_.moments(d);
   }
 
  private:
-  static constexpr std::size_t kLanes = V::kLanes;
-  static constexpr R kNothing = -std::numeric_limits<R>::infinity();
-  static constexpr std::size_t kD = kComponents<M>;
-  /// How far from 1 a block's sum of weights may be in the expected scale: squares of weights stay numbers.
-  static constexpr double kLeastSum = std::is_same_v<R, float> ? 0x1p-40 : 0x1p-400;
+  using Pass = BlockPass<M, R, G>;
+  using V = typename Pass::V;
+  using Source = typename Pass::Source;
+  using Weights = typename Pass::Weights;
 
-  enum class Source { kProposal, kModel, kPrior, kStay };      ///< where new states come from
-  enum class Weights { kFresh, kCarried, kKept, kEqual };      ///< fresh and carried take in the rows' likelihood
   enum class Parents { kInPlace, kMapped, kListed };
 
   /// What one share of a step works with.
-  struct Desk {
-    SurvivorStream<R, kD> stream;
-    std::vector<AlignedVector<R>> parents;
-    ColumnPointers<R, kD> columns, to;
-    AlignedVector<R> numbers;                        // draws made ahead
-    std::optional<lanes::VectorDraw<R>> source;  // that make them
+  struct Desk : Pass::Desk {
+    SurvivorStream<R, Pass::kD> stream;
 
-    explicit Desk(std::size_t dimensions)
-        : stream(dimensions),
-          parents(dimensions),
-          columns(column_pointers<R, kD>(dimensions)),
-          to(column_pointers<R, kD>(dimensions)) {
-      for (std::size_t d = 0; d < dimensions; ++d) {
-        parents[d].resize(kBlock);
-        columns[d] = parents[d].data();
-      }
-    }
-    /// Starts the draws of a block.
-    [[gnu::noinline]] void start(const Address& address) { source.emplace(address); }
-    /// Makes the draws of the next `count` particles.
-    void make_ready(const lanes::DrawPattern& pattern, std::size_t count) {
-      lanes::make_ready(*source, pattern, count, numbers.data());
-    }
+    explicit Desk(std::size_t dimensions) : Pass::Desk(dimensions), stream(dimensions) {}
   };
 
-  std::size_t whole_blocks() const { return sums_.blocks() * kBlock; }
-  std::size_t size_of(std::size_t block) const { return std::min(kBlock, now_.size() - block * kBlock); }
-
-  /// The rows in the vector's number type, in memory that is kept.
-  void take(Rows<double> rows) {
-    bool same_shape = rows_.size() == rows.size();
-    rows_.resize(rows.size());
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      same_shape = same_shape && rows_[k].present == rows[k].present;
-      rows_[k].present = rows[k].present;
-      rows_[k].values.resize(rows[k].values.size());
-      for (std::size_t j = 0; j < rows[k].values.size(); ++j) rows_[k].values[j] = V(rows[k].values[j]);
-    }
-    if (!same_shape) note_pattern<Source::kProposal>();
-  }
-
-  /// Notes which draws a source takes for a particle; a proposal may take others when rows of another shape come.
-  template <Source kSource>
-  void note_pattern() {
-    lanes::PatternDraw<V> draw;
-    auto state = blank_state<V>(model_);
-    for (std::size_t d = 0; d < state.size(); ++d) state[d] = V(now_.component(d)[0]);
-    if constexpr (kSource == Source::kProposal)
-      proposal_.template propose<V>(model_, 1, state, std::span<const Row<V>>(rows_), draw);
-    if constexpr (kSource == Source::kModel) model_.template next<V>(1, state, draw);
-    if constexpr (kSource == Source::kPrior) model_.template initial<V>(draw);
-    patterns_[static_cast<std::size_t>(kSource)] = draw.pattern();
-    for (Desk& desk : desks_)
-      desk.numbers.resize(std::max(desk.numbers.size(), draw.pattern().normal.size() * kBlock));
-  }
+  std::size_t whole_blocks() const { return pass_.blocks() * kBlock; }
 
   /// One pass over all blocks: states from their parents, weights, sums.
   template <Source kSource, Weights kWeights>
@@ -201,7 +119,7 @@ class VectorImportanceFilter final : public Filter {
     const bool moves_house = parents_ != Parents::kInPlace;
     Particles<R>& to = moves_house ? next_ : now_;
     AlignedVector<R>& weights = moves_house ? next_weights_ : weights_;
-    crew_.run(sums_.blocks(), [&](std::size_t share, std::size_t first, std::size_t last) {
+    crew_.run(pass_.blocks(), [&](std::size_t share, std::size_t first, std::size_t last) {
       Desk& desk = desks_[share];
       if (parents_ == Parents::kMapped)
         desk.stream.begin(map_, now_, weights_.data(), static_cast<std::uint32_t>(first * kBlock));
@@ -209,7 +127,8 @@ class VectorImportanceFilter final : public Filter {
         fetch_parents(desk, b);
         const Address address{seed_, static_cast<std::uint32_t>(t), purpose, static_cast<std::uint32_t>(b)};
         for (std::size_t d = 0; d < to.dimensions(); ++d) desk.to[d] = to.component(d).data() + b * kBlock;
-        block<kSource, kWeights>(desk, b, address, weights.data() + b * kBlock);
+        pass_.template block<kSource, kWeights>(desk, b, address, weights.data() + b * kBlock,
+                                                carries_ ? log_weights_.data() + b * kBlock : nullptr, mass_);
       }
     });
     if (moves_house) {
@@ -217,14 +136,13 @@ class VectorImportanceFilter final : public Filter {
       std::swap(weights_, next_weights_);
     }
     parents_ = Parents::kInPlace;
-    totals_ = sums_.totals();
-    if (std::isfinite(totals_.reference)) expected_ = totals_.reference;
+    pass_.add_up();
   }
 
   /// Puts the states that block b starts from on the desk: the parents' copies, or its own.
   void fetch_parents(Desk& desk, std::size_t b) {
     const std::size_t start = b * kBlock;
-    const std::size_t n = size_of(b);
+    const std::size_t n = pass_.size_of(b);
     if (parents_ == Parents::kMapped) {
       desk.stream.write(static_cast<std::uint32_t>(start), n, desk.columns);
       return;
@@ -239,294 +157,26 @@ class VectorImportanceFilter final : public Filter {
     }
   }
 
-  /// Sums of one component about the block's first particle.
-  struct Centred {
-    const R* x;
-    V centre{0}, first{0}, second{0};
-
-    explicit MOTE_INLINE Centred(const R* states) : x(states) {}
-    /// Takes the first particle for the centre.
-    MOTE_INLINE void centre_at(const V& states) { centre = V(usable_centre(lanes::first(states))); }
-    template <bool kSpread = true>
-    MOTE_INLINE void add(const V& w, const V& states) {
-      if constexpr (kSpread) {
-        const V offset = states - centre;
-        const V moment = w * offset;
-        first = first + moment;
-        second = lanes::fma(moment, offset, second);
-      } else {
-        first = lanes::fma(w, states, first);
-      }
-    }
-    template <bool kSpread = true>
-    MOTE_INLINE ComponentSums sums(const R* weights, std::size_t n) const {
-      const auto c = kSpread ? static_cast<double>(usable_centre(x[0])) : 0.0;
-      const ComponentSums all{c, lanes::sum(first), lanes::sum(second)};
-      return std::isfinite(all.first + all.second) ? all : careful(c, x, weights, n);
-    }
-    static R usable_centre(R state) { return std::isfinite(state) ? state : R(0); }
-    /// Leaves out particles without weight, whose states may be anything.
-    [[gnu::noinline]] static ComponentSums careful(double c, const R* x, const R* weights, std::size_t n) {
-      ComponentSums all{c, 0, 0};
-      for (std::size_t i = 0; i < n; ++i) {
-        if (!(weights[i] > 0)) continue;
-        const double offset = static_cast<double>(x[i]) - c;
-        all.first += static_cast<double>(weights[i]) * offset;
-        all.second += static_cast<double>(weights[i]) * offset * offset;
-      }
-      return all;
-    }
-  };
-
-  /// States and weights of one block, and its sums.
-  template <Source kSource, Weights kWeights>
-  void block(Desk& desk, std::size_t b, const Address& address, R* weights) {
-    if constexpr (kSource == Source::kProposal && kWeights == Weights::kFresh)
-      if (spreads_ ? expected_block<true>(desk, b, address, weights) : expected_block<false>(desk, b, address, weights))
-        return;
-    any_block<kSource, kWeights>(desk, b, address, weights);
-  }
-
-  /// One pass over a block whose largest weight is about the last step's: weights are formed as they come, in its scale.
-  /// False if it was not so, or a density was no number: then nothing has been noted.
-  template <bool kSpread>
-  bool expected_block(Desk& desk, std::size_t b, const Address& address, R* weights) {
-    const std::size_t n = size_of(b);
-    R* const logs = carries_ ? log_weights_.data() + b * kBlock : nullptr;
-    const Scene<Source::kProposal, Weights::kFresh> scene{
-        model_, proposal_, static_cast<Step>(address.step), rows_, 0, nullptr, desk.columns, desk.to};
-    Running<kSpread> running{V(-expected_), weights, logs, n, Centred(desk.to[0])};
-    desk.start(address);
-    const std::size_t chunk = chunk_of<Source::kProposal>();
-    for (std::size_t start = 0; start < n; start += chunk) {
-      const std::size_t end = std::min(start + chunk, n);
-      desk.make_ready(patterns_[0], end - start);
-      expected_chunk<kSpread>(scene, start, end, desk.numbers.data(), running);
-    }
-    const WeightSums sums{expected_, lanes::sum(running.s), lanes::sum(running.ss)};
-    if (!(sums.weight > kLeastSum && sums.weight < 1 / kLeastSum)) return false;
-    sums_.set(b, sums);
-    sums_.set(b, 0, running.first.template sums<kSpread>(weights, n));
-    other_components(b, weights, desk.to);
-    return true;
-  }
-
-  /// Weights and sums of a block as they come.
-  template <bool kSpread>
-  struct Running {
-    V shift;
-    R* weights;
-    R* logs;
-    std::size_t n;
-    Centred first;
-    V s{0}, ss{0};
-
-    MOTE_INLINE void add(std::size_t j, const V& l, const V& x) {
-      V w = lanes::exp2_weight(lanes::fma(l, V(std::numbers::log2e), shift));
-      if (__builtin_expect(j + kLanes > n, 0)) w = leading(w, n - j);
-      w.store(weights + j);
-      if (logs != nullptr) l.store(logs + j);
-      s = s + w;
-      ss = lanes::fma(w, w, ss);
-      if constexpr (kSpread)
-        if (j == 0) first.centre_at(x);
-      first.template add<kSpread>(w, x);
-    }
-  };
-
-  /// The hot loop, and nothing else: so its constants leave it.
-  template <bool kSpread, class S>
-  [[gnu::flatten, gnu::noinline]] static void expected_chunk(const S& scene, std::size_t start, std::size_t end,
-                                                             const R* numbers, Running<kSpread>& all) {
-    // local copies keep a small model's parameters and the pointers in registers: no store can change them
-    const S here = scene;
-    const std::conditional_t<std::is_trivially_copyable_v<M>, M, const M&> model = scene.model;
-    Running<kSpread> running = all;
-    for (std::size_t j = start; j < end; j += kLanes) {
-      lanes::ReadyDraw<V> draw(numbers, j - start);
-      const auto moved = here.move(model, j, draw);
-      running.add(j, moved.log_weight, moved.first);
-    }
-    all = running;
-  }
-
-  /// Any block: log weights first, then weights about the block's largest.
-  template <Source kSource, Weights kWeights>
-  [[gnu::noinline]] void any_block(Desk& desk, std::size_t b, const Address& address, R* weights) {
-    constexpr bool kWeighs = Scene<kSource, kWeights>::kWeighs;
-    const std::size_t n = size_of(b);
-    R* const logs = carries_ ? log_weights_.data() + b * kBlock : weights;
-    const Scene<kSource, kWeights> scene{model_, proposal_, static_cast<Step>(address.step), rows_, mass_, logs,
-                                         desk.columns, desk.to};
-    V most(kNothing);
-    desk.start(address);
-    const std::size_t chunk = chunk_of<kSource>();
-    for (std::size_t start = 0; start < n; start += chunk) {
-      const std::size_t end = std::min(start + chunk, n);
-      desk.make_ready(patterns_[static_cast<std::size_t>(kSource)], end - start);
-      most = lanes::max(most, any_chunk(scene, start, end, desk.numbers.data(), logs, n));
-    }
-    sum<kWeights>(b, kWeighs ? lanes::largest(most) : R(0), logs, weights, desk.to);
-  }
-
-  template <class S>
-  [[gnu::flatten, gnu::noinline]] static V any_chunk(const S& scene, std::size_t start, std::size_t end,
-                                                     const R* numbers, R* logs, std::size_t n) {
-    const S here = scene;
-    const std::conditional_t<std::is_trivially_copyable_v<M>, M, const M&> model = scene.model;
-    V most(kNothing);
-    for (std::size_t j = start; j < end; j += kLanes) {
-      lanes::ReadyDraw<V> draw(numbers, j - start);
-      V l = here.move(model, j, draw).log_weight;
-      if constexpr (S::kWeighs) {
-        l = usable(l);
-        if (j + kLanes > n) l = lanes::select(leading_lanes(n - j), l, V(kNothing));
-        l.store(logs + j);
-        most = lanes::max(most, l);
-      }
-    }
-    return most;
-  }
-
-  /// Particles of a block whose draws are made at a time: what is made ahead is to stay in the first-level cache.
-  template <Source kSource>
-  std::size_t chunk_of() const {
-    return patterns_[static_cast<std::size_t>(kSource)].normal.size() * sizeof(R) <= 16 ? kBlock : kBlock / 4;
-  }
-
-  /// The first `count` lanes.
-  static MOTE_INLINE lanes::Mask<R, kBytes> leading_lanes(std::size_t count) {
-    alignas(64) std::array<R, kLanes> lane{};
-    for (std::size_t i = 0; i < kLanes; ++i) lane[i] = i < count ? R(1) : R(0);
-    return V(0) < V::load(lane.data());
-  }
-  static MOTE_INLINE V leading(const V& v, std::size_t count) { return lanes::select(leading_lanes(count), v, V(0)); }
-
-  /// What moving a vector of particles needs, in one place.
-  template <Source kSource, Weights kWeights>
-  struct Scene {
-    static constexpr bool kWeighs = kWeights == Weights::kFresh || kWeights == Weights::kCarried;
-    const M& model;
-    const G& proposal;
-    Step t;
-    std::span<const Row<V>> rows;
-    double mass;
-    const R* logs;  ///< carried log weights
-    ColumnPointers<R, kD> from, to;
-
-    struct Moved {
-      V log_weight;  ///< as computed: it may be NaN or infinite
-      V first;       ///< component 0
-    };
-    template <class F>
-    static MOTE_INLINE void each_component(const State& state, const F& f) {
-      if constexpr (kD > 0) {
-        lanes::unrolled<kD>(f);
-      } else {
-        for (std::size_t d = 0; d < state.size(); ++d) f(d);
-      }
-    }
-    /// Moves the particles from j on.
-    template <class D>
-    MOTE_INLINE Moved move(const M& model_here, std::size_t j, D& draw) const {
-      auto before = blank_state<V>(model_here);
-      each_component(before, [&](std::size_t d) { before[d] = V::load(from[d] + j); });
-      const auto x = [&] {
-        if constexpr (kSource == Source::kProposal) return proposal.template propose<V>(model_here, t, before, rows, draw);
-        if constexpr (kSource == Source::kModel) return model_here.template next<V>(t, before, draw);
-        if constexpr (kSource == Source::kPrior) return model_here.template initial<V>(draw);
-        if constexpr (kSource == Source::kStay) return before;
-      }();
-      each_component(before, [&](std::size_t d) { x[d].store(to[d] + j); });
-      if constexpr (!kWeighs) return {V(0), x[0]};
-      // at least one row, and the first outside the loop: what it computes from parameters alone leaves both loops
-      V l = model_here.template log_likelihood<V>(t, x, rows[0]);
-      for (std::size_t k = 1; k < rows.size(); ++k) l = l + model_here.template log_likelihood<V>(t, x, rows[k]);
-      if constexpr (kSource == Source::kProposal && !std::is_same_v<G, Prior>)
-        l = usable(l) + usable(model_here.template log_transition<V>(t, x, before) -
-                               proposal.template log_density<V>(model_here, t, x, before, rows));
-      if constexpr (kWeights == Weights::kCarried) l = l + (V::load(logs + j) - V(mass));
-      return {l, x[0]};
-    }
-  };
-
-  /// A density as a weight may use it: NaN and +infinity count as zero.
-  static MOTE_INLINE V usable(const V& l) {
-    return lanes::select(l < V(std::numeric_limits<R>::infinity()), l, V(kNothing));
-  }
-
-  /// Weights of one block from their logarithms, about the largest; sums of weights and states.
-  template <Weights kWeights>
-  MOTE_INLINE void sum(std::size_t b, R top, const R* logs, R* weights, const ColumnPointers<R, kD>& x) {
-    constexpr bool kWeighs = kWeights == Weights::kFresh || kWeights == Weights::kCarried;
-    const std::size_t n = size_of(b);
-    WeightSums block;
-    block.shift = kWeighs ? std::ceil(static_cast<double>(top) * std::numbers::log2e) : kWeights == Weights::kEqual ? 0 : sums_.shift(b);
-    if (kWeighs && !(top > kNothing)) {
-      std::fill(weights, weights + kBlock, R(0));
-      sums_.set(b, {-kInfinity, 0, 0});
-      return;
-    }
-    if constexpr (kWeights == Weights::kEqual) {
-      std::fill(weights, weights + n, R(1));
-      std::fill(weights + n, weights + (n + kLanes - 1) / kLanes * kLanes, R(0));
-    }
-    const V shift(-block.shift);
-    const V log2e(std::numbers::log2e);
-    V s(0);
-    V ss(0);
-    Centred first(x[0]);
-    first.centre_at(V::load(x[0]));
-    for (std::size_t j = 0; j < n; j += kLanes) {
-      V w;
-      if constexpr (kWeighs) {
-        w = lanes::exp2_weight(lanes::fma(V::load(logs + j), log2e, shift));
-        w.store(weights + j);
-      } else {
-        w = V::load(weights + j);
-      }
-      s = s + w;
-      ss = lanes::fma(w, w, ss);
-      first.add(w, V::load(x[0] + j));
-    }
-    block.weight = lanes::sum(s);
-    block.square = lanes::sum(ss);
-    sums_.set(b, block);
-    sums_.set(b, 0, first.sums(weights, n));
-    other_components(b, weights, x);
-  }
-
-  /// Sums of the components after the first.
-  MOTE_INLINE void other_components(std::size_t b, const R* weights, const ColumnPointers<R, kD>& x) {
-    const std::size_t n = size_of(b);
-    for (std::size_t d = 1; d < x.size(); ++d) {
-      Centred other(x[d]);
-      other.centre_at(V::load(x[d]));
-      for (std::size_t j = 0; j < n; j += kLanes) other.add(V::load(weights + j), V::load(x[d] + j));
-      sums_.set(b, d, other.sums(weights, n));
-    }
-  }
-
   [[gnu::flatten]] Moments circular_moments(std::size_t d) const {
     double c = 0;
     double s = 0;
-    for (std::size_t b = 0; b < sums_.blocks(); ++b) {
+    for (std::size_t b = 0; b < pass_.blocks(); ++b) {
       const R* const x = now_.component(d).data() + b * kBlock;
       const R* const weights = weights_.data() + b * kBlock;
       V cosines(0);
       V sines(0);
-      for (std::size_t j = 0; j < size_of(b); j += kLanes) {
+      for (std::size_t j = 0; j < pass_.size_of(b); j += V::kLanes) {
         const V w = V::load(weights + j);
         const V angle = lanes::select(V(0) < w, V::load(x + j), V(0));
         cosines = lanes::fma(w, lanes::cos(angle), cosines);
         sines = lanes::fma(w, lanes::sin(angle), sines);
       }
-      const double scale = totals_.scale_of(sums_.shift(b));
+      const double scale = pass_.totals().scale_of(pass_.sums().shift(b));
       c += scale * lanes::sum(cosines);
       s += scale * lanes::sum(sines);
     }
-    c /= totals_.weight;
-    s /= totals_.weight;
+    c /= pass_.totals().weight;
+    s /= pass_.totals().weight;
     return {std::atan2(s, c), std::sqrt(std::max(0.0, -2 * std::log(std::min(1.0, std::hypot(c, s)))))};
   }
 
@@ -546,37 +196,30 @@ class VectorImportanceFilter final : public Filter {
   StepReport recovered(Step t) {
     StepReport report;
     if (on_collapse_ == OnCollapse::kReset) pass<Source::kPrior, Weights::kFresh>(t, Purpose::kReset);
-    if (totals_.collapsed()) {
+    if (pass_.totals().collapsed()) {
       pass<Source::kStay, Weights::kEqual>(t, Purpose::kMove);
       std::fill(log_weights_.begin(), log_weights_.end(), R(0));
     }
-    mass_ = totals_.log_sum();
+    mass_ = pass_.totals().log_sum();
     report.log_evidence = -kInfinity;
-    report.ess = totals_.ess();
+    report.ess = pass_.totals().ess();
     report.collapsed = true;
     return report;
   }
 
-  M model_;
-  G proposal_;
   std::uint64_t seed_;
   SelectionOptions selection_;
   OnCollapse on_collapse_;
-  bool spreads_;  // sums of squares are formed
   bool carries_;  // log weights are kept from step to step
   Crew crew_;
   Particles<R> now_, next_;
   AlignedVector<R> weights_, next_weights_, log_weights_;
-  BlockSums sums_;
-  Totals totals_;
+  Pass pass_;
   std::vector<Desk> desks_;
-  std::vector<Row<V>> rows_;
-  std::array<lanes::DrawPattern, 4> patterns_;  // by source
   Parents parents_ = Parents::kInPlace;
   ChildMap map_;
   std::vector<Index> ancestors_;
   bool level_ = true;  // all particles weigh the same before the next step
-  double expected_ = 0;  // log2 scale in which the next weights are tried
   double mass_ = 0;    // log sum of the carried log weights
   mutable std::vector<double> shown_;
 };
