@@ -96,8 +96,12 @@ class Draw {
   }
 
   /// A uniform index in {0, ..., n-1}.
-  std::size_t index(std::size_t n) requires std::is_same_v<R, double> {
-    return static_cast<std::size_t>(index_from_bits(generator_->next(), n));
+  std::size_t index(std::size_t n) {
+    if constexpr (std::is_same_v<R, float>) {
+      return index_from_bits(half(), static_cast<std::uint32_t>(n));
+    } else {
+      return static_cast<std::size_t>(index_from_bits(generator_->next(), static_cast<std::uint64_t>(n)));
+    }
   }
 
  private:

@@ -37,4 +37,10 @@ inline std::uint64_t index_from_bits(std::uint64_t bits, std::uint64_t n) {
   return static_cast<std::uint64_t>((static_cast<Wide>(bits) * n) >> 64U);
 }
 
+/// The same from 32 bits, n at most 2^28. Probabilities differ from 1/n by up to n / 2^32 of it, in a pattern that has
+/// nothing to do with what is indexed: the error of a mean over n draws grows by less than a sixteenth.
+inline std::uint32_t index_from_bits(std::uint32_t bits, std::uint32_t n) {
+  return static_cast<std::uint32_t>((static_cast<std::uint64_t>(bits) * n) >> 32U);
+}
+
 }  // namespace mote

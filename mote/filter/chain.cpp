@@ -1,17 +1,11 @@
 #include "mote/filter/chain.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "mote/base/numbers.hpp"
 
 namespace mote {
 namespace {
-
-/// The part [first(k), first(k + 1)) of n that chain k of `chains` gets.
-std::size_t first(std::size_t n, std::size_t chains, std::size_t k) {
-  return k * (n / chains) + std::min(k, n % chains);
-}
 
 /// One chain in motion.
 class Chain {
@@ -54,10 +48,10 @@ ChainReport run_chains(const ChainLayout& layout, std::span<const double> log_we
     Chain chain(log_weights, log_uniforms, report);
     if (!starts.empty()) chain.start(starts[k]);
     for (std::size_t b = 0; b < layout.burn_in; ++b) chain.visit(layout.draws + k * layout.burn_in + b);
-    const std::size_t stop = first(layout.draws, layout.chains, k + 1);
-    const std::size_t kept_first = first(layout.kept, layout.chains, k);
-    const std::size_t kept = first(layout.kept, layout.chains, k + 1) - kept_first;
-    for (std::size_t j = first(layout.draws, layout.chains, k); j < stop; ++j) {
+    const std::size_t stop = first_of_part(layout.draws, layout.chains, k + 1);
+    const std::size_t kept_first = first_of_part(layout.kept, layout.chains, k);
+    const std::size_t kept = first_of_part(layout.kept, layout.chains, k + 1) - kept_first;
+    for (std::size_t j = first_of_part(layout.draws, layout.chains, k); j < stop; ++j) {
       const std::size_t at = chain.visit(j);
       if (j + kept >= stop) picks[kept_first + (j + kept - stop)] = static_cast<Index>(at);
     }

@@ -1,6 +1,7 @@
 #pragma once
 /// The independent Metropolis chain over weighted proposals: selection without a sum of weights.
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 
@@ -19,6 +20,12 @@ struct ChainLayout {
 
   std::size_t proposals() const { return draws + chains * burn_in; }
 };
+
+/// The part [first_of_part(n, parts, k), first_of_part(n, parts, k + 1)) of n that part k of `parts` gets: the first
+/// n mod parts get one more.
+inline std::size_t first_of_part(std::size_t n, std::size_t parts, std::size_t k) {
+  return k * (n / parts) + std::min(k, n % parts);
+}
 
 /// Counts of a run of chains.
 struct ChainReport {

@@ -99,8 +99,9 @@ class MetropolisFilter final : public Filter {
       starts = weighted_starts(t);
     }
     // the linear weights have served: their place takes the log uniforms
-    draws(t).for_each(Purpose::kAccept, 0, weights_.size(),
-                      [&](std::size_t j, auto& draw) { weights_[j] = std::log(draw.uniform()); });
+    draws(t).template for_each<R>(Purpose::kAccept, 0, weights_.size(), [&](std::size_t j, auto& draw) {
+      weights_[j] = std::log(static_cast<double>(draw.uniform()));
+    });
     const ChainReport chain = run_chains(layout_, log_weights_, weights_, starts, picks_);
     set_.gather(proposals_, picks_);
     report.acceptance =
@@ -149,12 +150,14 @@ class MetropolisFilter final : public Filter {
     auto before = blank_state<R>(model_);
     const std::size_t n = set_.size();
     for (std::size_t start = from / kBlock * kBlock; start < to; start += kBlock) {
-      auto parents = draws(t).block(Purpose::kParent, start / kBlock);
+      auto parents = draws(t).template block<R>(Purpose::kParent, start / kBlock);
+      auto lookahead = draws(t).block(Purpose::kParent, start / kBlock);
       auto moves = draws(t).template block<R>(Purpose::kMove, start / kBlock);
       for (std::size_t j = start; j < std::min(start + kBlock, to); ++j) {
-        auto parent_draw = parents.particle(j - start);
         auto draw = moves.particle(j - start);
-        const auto [k, log_parent] = parent(j, n, permutation, parent_draw);
+        const auto [k, log_parent] = lookahead_
+                                         ? looked_ahead(n, lookahead.particle(j - start))
+                                         : Parent{uniform_parent(j, n, permutation, parents.particle(j - start)), 0};
         set_.read(k, before);
         const auto x = proposal_.template propose<R>(model_, t, before, y, draw);
         if (j < from) continue;  // drawn again only to keep the block's stream in step
@@ -169,21 +172,20 @@ class MetropolisFilter final : public Filter {
     std::size_t index;
     double log_weight;  // log (N g(k))
   };
-  template <class D>
-  Parent parent(std::size_t j, std::size_t n, const Permutation& permutation, D& draw) const {
-    if (lookahead_) {
-      const std::size_t k = lookahead_->find(draw.uniform() * lookahead_->total());
-      return {k, std::log(lookahead_->weights()[k] / lookahead_->total() * static_cast<double>(n))};
-    }
+  Parent looked_ahead(std::size_t n, Draw<double> draw) const {
+    const std::size_t k = lookahead_->find(draw.uniform() * lookahead_->total());
+    return {k, std::log(lookahead_->weights()[k] / lookahead_->total() * static_cast<double>(n))};
+  }
+  std::size_t uniform_parent(std::size_t j, std::size_t n, const Permutation& permutation, Draw<R> draw) const {
     switch (options_.parents) {
       case Parents::kPermuted:
-        return {permutation(j % n), 0};
+        return permutation(j % n);
       case Parents::kSweep:
-        return {j % n, 0};
+        return j % n;
       case Parents::kIid:
         break;
     }
-    return {draw.index(n), 0};
+    return draw.index(n);
   }
 
   /// g(k) for the auxiliary filter: half uniform, half the likelihood of the parent moved with its noise at the median;

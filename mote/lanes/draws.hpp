@@ -212,6 +212,44 @@ class VectorDraw {
     }
   }
 
+  /// Uniform indices in {0, ..., n-1}, one a lane; those of Draw<R>.
+  ///
+  /// shape   to: (kWidth<R>,); n <= 2^28
+  MOTE_INLINE void index(std::uint32_t n, std::uint32_t* to) {
+    using Words = Generators::Words;
+    using Halves = Registers<std::uint32_t>;
+    const auto times_n = [&](const Words& words) {  // of the low halves
+      return Words::map(
+          [&](auto w) {
+            const typename Halves::Tag halves_of;
+            return hn::MulEven(hn::BitCast(halves_of, w), hn::Set(halves_of, n));
+          },
+          words);
+    };
+    const Words words = generators_.next();
+    const Words low = times_n(words);
+    const Words high = times_n(Words::map([](auto w) { return hn::ShiftRight<32>(w); }, words));
+    constexpr std::size_t kPer = Words::kPerRegister;
+    if constexpr (std::is_same_v<R, float>) {
+      // the high halves of the products: the low particles' first, then the high ones'
+      std::array<Words::Register, 2 * Words::kCount> products;
+      for (std::size_t k = 0; k < Words::kCount; ++k) {
+        products[k] = low.r[k];
+        products[Words::kCount + k] = high.r[k];
+      }
+      const typename Halves::Tag tag;
+      for (std::size_t k = 0; k < Words::kCount; ++k)
+        hn::StoreU(hn::ConcatOdd(tag, hn::BitCast(tag, products[2 * k + 1]), hn::BitCast(tag, products[2 * k])), tag,
+                   to + 2 * k * kPer);
+    } else {
+      for (std::size_t k = 0; k < Words::kCount; ++k) {
+        const hn::Rebind<std::uint32_t, Words::Tag> narrow;
+        const auto product = hn::Add(high.r[k], hn::ShiftRight<32>(low.r[k]));
+        hn::StoreU(hn::TruncateTo(narrow, hn::ShiftRight<32>(product)), narrow, to + k * kPer);
+      }
+    }
+  }
+
  private:
   static constexpr int kXorOfAnd = 0x78;  // a ^ (b & c), as a truth table
 

@@ -60,6 +60,43 @@ class BlockPass {
   enum class Source { kProposal, kModel, kPrior, kStay };  ///< where new states come from
   enum class Weights { kFresh, kCarried, kKept, kEqual };  ///< fresh and carried take in the rows' likelihood
 
+  /// Circular mean and standard deviation of component d, an angle; weights_of(b) are those of block b, in its scale.
+  template <class WeightsOf>
+  [[gnu::flatten]] Moments circular_moments(const Particles<R>& x, std::size_t d, const WeightsOf& weights_of) const {
+    double c = 0;
+    double s = 0;
+    for (std::size_t b = 0; b < blocks(); ++b) {
+      const R* const angles = x.component(d).data() + b * kBlock;
+      const R* const weights = weights_of(b);
+      V cosines(0);
+      V sines(0);
+      for (std::size_t j = 0; j < size_of(b); j += kLanes) {
+        const V w = V::load(weights + j);
+        const V angle = lanes::select(V(0) < w, V::load(angles + j), V(0));
+        cosines = lanes::fma(w, lanes::cos(angle), cosines);
+        sines = lanes::fma(w, lanes::sin(angle), sines);
+      }
+      const double scale = totals_.scale_of(sums_.shift(b));
+      c += scale * lanes::sum(cosines);
+      s += scale * lanes::sum(sines);
+    }
+    c /= totals_.weight;
+    s /= totals_.weight;
+    return {std::atan2(s, c), std::sqrt(std::max(0.0, -2 * std::log(std::min(1.0, std::hypot(c, s)))))};
+  }
+
+  /// The weights that block b had in the last pass, in its scale, from the log weights that it left.
+  ///
+  /// shape   logs, weights: (1024,); zeros behind the block's last particle
+  [[gnu::flatten]] void weigh_again(std::size_t b, const R* logs, R* weights) const {
+    std::fill_n(weights, kBlock, R(0));
+    if (!std::isfinite(sums_.shift(b))) return;
+    const std::size_t n = size_of(b);
+    for (std::size_t j = 0; j < n; j += kLanes)
+      lanes::exp2_weight(lanes::fma(V::load(logs + j), V(std::numbers::log2e), V(-sums_.shift(b)))).store(weights + j);
+    std::fill(weights + n, weights + kBlock, R(0));
+  }
+
   /// What one share of a step works with: the states that a block starts from, where it goes, its draws.
   struct Desk {
     std::vector<AlignedVector<R>> parents;
@@ -108,6 +145,7 @@ class BlockPass {
     totals_ = sums_.totals();
     if (std::isfinite(totals_.reference)) expected_ = totals_.reference;
   }
+  /// Mean and standard deviation of component d of the last pass.
   Moments moments(std::size_t d) const {
     Moments both = sums_.moments(totals_, d);
     if (!spreads_) both.sd = kNaN;

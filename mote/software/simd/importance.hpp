@@ -92,13 +92,12 @@ class VectorImportanceFilter final : public Filter {
   }
 
   Moments moments(std::size_t d, bool angle) const override {
-    if (angle) return circular_moments(d);
+    if (angle) return pass_.circular_moments(now_, d, [&](std::size_t b) { return weights_.data() + b * kBlock; });
     return pass_.moments(d);
   }
 
  private:
   using Pass = BlockPass<M, R, G>;
-  using V = typename Pass::V;
   using Source = typename Pass::Source;
   using Weights = typename Pass::Weights;
 
@@ -155,29 +154,6 @@ class VectorImportanceFilter final : public Filter {
         std::copy_n(from.data() + start, n, desk.columns[d]);
       }
     }
-  }
-
-  [[gnu::flatten]] Moments circular_moments(std::size_t d) const {
-    double c = 0;
-    double s = 0;
-    for (std::size_t b = 0; b < pass_.blocks(); ++b) {
-      const R* const x = now_.component(d).data() + b * kBlock;
-      const R* const weights = weights_.data() + b * kBlock;
-      V cosines(0);
-      V sines(0);
-      for (std::size_t j = 0; j < pass_.size_of(b); j += V::kLanes) {
-        const V w = V::load(weights + j);
-        const V angle = lanes::select(V(0) < w, V::load(x + j), V(0));
-        cosines = lanes::fma(w, lanes::cos(angle), cosines);
-        sines = lanes::fma(w, lanes::sin(angle), sines);
-      }
-      const double scale = pass_.totals().scale_of(pass_.sums().shift(b));
-      c += scale * lanes::sum(cosines);
-      s += scale * lanes::sum(sines);
-    }
-    c /= pass_.totals().weight;
-    s /= pass_.totals().weight;
-    return {std::atan2(s, c), std::sqrt(std::max(0.0, -2 * std::log(std::min(1.0, std::hypot(c, s)))))};
   }
 
   /// Parents by any scheme, with the weights that children carry when the exponent is not 1.
