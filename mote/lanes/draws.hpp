@@ -231,16 +231,11 @@ class VectorDraw {
     const Words high = times_n(Words::map([](auto w) { return hn::ShiftRight<32>(w); }, words));
     constexpr std::size_t kPer = Words::kPerRegister;
     if constexpr (std::is_same_v<R, float>) {
-      // the high halves of the products: the low particles' first, then the high ones'
-      std::array<Words::Register, 2 * Words::kCount> products;
+      const hn::Rebind<std::uint32_t, Words::Tag> narrow;
       for (std::size_t k = 0; k < Words::kCount; ++k) {
-        products[k] = low.r[k];
-        products[Words::kCount + k] = high.r[k];
+        hn::StoreU(hn::TruncateTo(narrow, hn::ShiftRight<32>(low.r[k])), narrow, to + k * kPer);
+        hn::StoreU(hn::TruncateTo(narrow, hn::ShiftRight<32>(high.r[k])), narrow, to + 8 + k * kPer);
       }
-      const typename Halves::Tag tag;
-      for (std::size_t k = 0; k < Words::kCount; ++k)
-        hn::StoreU(hn::ConcatOdd(tag, hn::BitCast(tag, products[2 * k + 1]), hn::BitCast(tag, products[2 * k])), tag,
-                   to + 2 * k * kPer);
     } else {
       for (std::size_t k = 0; k < Words::kCount; ++k) {
         const hn::Rebind<std::uint32_t, Words::Tag> narrow;

@@ -15,32 +15,33 @@ MOTE_INLINE void transpose(const From& from, const To& to) {
   constexpr std::size_t kRows = kWidth<R>;
 #if HWY_TARGET <= HWY_AVX3
   if constexpr (std::is_same_v<R, float>) {
-    // quarter q of rows i, 4 + i, 8 + i, 12 + i side by side: loads, no shuffles; four such squares of four remain
-    std::array<__m512, kRows> column;
-    unrolled<4>([&](std::size_t q) __attribute__((always_inline)) {
-      std::array<__m512, 4> quarter;
-      unrolled<4>([&](std::size_t i) __attribute__((always_inline)) {
-        const auto piece = [&](std::size_t row) __attribute__((always_inline)) {
-          return _mm_loadu_ps(from(row) + 4 * q);
-        };
-        __m512 all = _mm512_castps128_ps512(piece(i));
-        all = _mm512_mask_broadcast_f32x4(all, 0x00F0, piece(4 + i));
-        all = _mm512_mask_broadcast_f32x4(all, 0x0F00, piece(8 + i));
-        quarter[i] = _mm512_mask_broadcast_f32x4(all, 0xF000, piece(12 + i));
-      });
-      const auto pair = [&](const __m512& a, const __m512& b, std::size_t low) __attribute__((always_inline)) {
-        const __m512d even = _mm512_castps_pd(_mm512_unpacklo_ps(a, b));
-        const __m512d odd = _mm512_castps_pd(_mm512_unpackhi_ps(a, b));
-        return low == 0 ? even : odd;
-      };
-      unrolled<2>([&](std::size_t half) __attribute__((always_inline)) {
-        const __m512d a = pair(quarter[0], quarter[1], half);
-        const __m512d b = pair(quarter[2], quarter[3], half);
-        column[4 * q + 2 * half] = _mm512_castpd_ps(_mm512_unpacklo_pd(a, b));
-        column[4 * q + 2 * half + 1] = _mm512_castpd_ps(_mm512_unpackhi_pd(a, b));
+
+    std::array<__m512, kRows> pairs;
+    unrolled<kRows / 2>([&](std::size_t k) __attribute__((always_inline)) {
+      const __m512 a = _mm512_loadu_ps(from(2 * k));
+      const __m512 b = _mm512_loadu_ps(from(2 * k + 1));
+      pairs[2 * k] = _mm512_unpacklo_ps(a, b);
+      pairs[2 * k + 1] = _mm512_unpackhi_ps(a, b);
+    });
+    std::array<__m512, kRows> quads;
+    unrolled<kRows / 4>([&](std::size_t g) __attribute__((always_inline)) {
+      unrolled<2>([&](std::size_t h) __attribute__((always_inline)) {
+        const __m512d a = _mm512_castps_pd(pairs[4 * g + h]);
+        const __m512d b = _mm512_castps_pd(pairs[4 * g + 2 + h]);
+        quads[4 * g + 2 * h] = _mm512_castpd_ps(_mm512_unpacklo_pd(a, b));
+        quads[4 * g + 2 * h + 1] = _mm512_castpd_ps(_mm512_unpackhi_pd(a, b));
       });
     });
-    unrolled<kRows>([&](std::size_t k) __attribute__((always_inline)) { _mm512_storeu_ps(to(k), column[k]); });
+    unrolled<4>([&](std::size_t j) __attribute__((always_inline)) {
+      const __m512 even_low = _mm512_shuffle_f32x4(quads[j], quads[4 + j], 0x88);
+      const __m512 even_high = _mm512_shuffle_f32x4(quads[8 + j], quads[12 + j], 0x88);
+      const __m512 odd_low = _mm512_shuffle_f32x4(quads[j], quads[4 + j], 0xDD);
+      const __m512 odd_high = _mm512_shuffle_f32x4(quads[8 + j], quads[12 + j], 0xDD);
+      _mm512_storeu_ps(to(j), _mm512_shuffle_f32x4(even_low, even_high, 0x88));
+      _mm512_storeu_ps(to(4 + j), _mm512_shuffle_f32x4(odd_low, odd_high, 0x88));
+      _mm512_storeu_ps(to(8 + j), _mm512_shuffle_f32x4(even_low, even_high, 0xDD));
+      _mm512_storeu_ps(to(12 + j), _mm512_shuffle_f32x4(odd_low, odd_high, 0xDD));
+    });
   } else {
     std::array<__m512d, kRows> column;
     unrolled<4>([&](std::size_t q) __attribute__((always_inline)) {

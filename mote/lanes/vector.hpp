@@ -6,6 +6,7 @@
 /// namespace named after the instruction set: files compiled for different ones can be linked into one program. Built
 /// on Highway; docs/decisions/0004-vector-library.md.
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -252,6 +253,34 @@ MOTE_INLINE Vector<R, kBytes> horner(const Vector<R, kBytes>& x, const Entry& en
   Vector<R, kBytes> sum = entry(kDegree);
   unrolled<kDegree>([&](std::size_t step) { sum = fma(sum, x, entry(kDegree - 1 - step)); });
   return sum;
+}
+
+/// The first `count` numbers at `from`, all of a vector if there are more; `rest` in the other lanes. Nothing else is
+/// read.
+template <class R>
+MOTE_INLINE Vector<R> load_first(const R* from, std::size_t count, const Vector<R>& rest) {
+#if HWY_TARGET <= HWY_AVX3
+  const typename Vector<R>::Tag tag;
+  const auto mask = hn::FirstN(tag, count);
+  return Vector<R>::map([&](auto others) { return hn::IfThenElse(mask, hn::MaskedLoad(mask, tag, from), others); }, rest);
+#else
+  alignas(64) std::array<R, kWidth<R>> lane;
+  rest.store(lane.data());
+  std::copy_n(from, std::min(count, lane.size()), lane.data());
+  return Vector<R>::load(lane.data());
+#endif
+}
+/// Stores the first `count` lanes, all if that is more than there are. Nothing else is written.
+template <class R>
+MOTE_INLINE void store_first(const Vector<R>& a, std::size_t count, R* to) {
+#if HWY_TARGET <= HWY_AVX3
+  const typename Vector<R>::Tag tag;
+  hn::BlendedStore(a.parts.r[0], hn::FirstN(tag, count), tag, to);
+#else
+  alignas(64) std::array<R, kWidth<R>> lane;
+  a.store(lane.data());
+  std::copy_n(lane.data(), std::min(count, lane.size()), to);
+#endif
 }
 
 /// Lane 0.

@@ -13,9 +13,9 @@ inline namespace HWY_NAMESPACE {
 
 /// Up to kWidth<R> neighbouring chains of a layout, which run_chains() would run one by one.
 ///
-///   accept proposal x^ after x where  l(x) < l(x^) + luck(x^),   luck = -log u
+///   accept proposal x^ after x where  l(x) < l(x^) - log u(x^)
 ///
-/// shape   logs, luck: (Q + P N_b,); the luck of states that chains start from is overwritten
+/// shape   logs, log_uniforms: (Q + P N_b,); the log u of states that chains start from are overwritten
 ///         starts: (P,) proposal that each chain starts from, or empty: the first that it visits
 ///         from: kColumns columns of (Q + P N_b,) that tell of the proposals; to: as many of (N,), what they tell of
 ///         the unweighted set
@@ -31,9 +31,9 @@ class ChainGroup {
   static std::size_t groups(const ChainLayout& layout) { return (layout.chains + kLanes - 1) / kLanes; }
 
   /// The group with chains kLanes g, kLanes g + 1, ...
-  ChainGroup(const ChainLayout& layout, std::size_t g, const R* logs, R* luck,
+  ChainGroup(const ChainLayout& layout, std::size_t g, const R* logs, R* log_uniforms,
              const std::array<const R*, kColumns>& from, std::span<const Index> starts)
-      : logs_(logs), luck_(luck), from_(from), chains_(std::min(kLanes, layout.chains - g * kLanes)) {
+      : logs_(logs), log_uniforms_(log_uniforms), from_(from), chains_(std::min(kLanes, layout.chains - g * kLanes)) {
     std::array<std::size_t, kLanes> start{};
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       const std::size_t k = g * kLanes + std::min(lane, chains_ - 1);  // lanes left over repeat the last chain
@@ -64,7 +64,7 @@ class ChainGroup {
  private:
   using V = lanes::Vector<R>;
   using Square = std::array<R, kLanes * kLanes>;
-  static constexpr R kNever = -std::numeric_limits<R>::infinity();
+  static constexpr R kNever = std::numeric_limits<R>::infinity();  // a log u that accepts nothing
 
   /// Proposals that the chains visit in one go.
   struct Parts {
@@ -82,7 +82,7 @@ class ChainGroup {
   void pass_over(std::size_t lane, std::size_t start) {
     report_.offered += burning_.length(lane) + keeping_.length(lane);
     if (!burning_.holds(lane, start) && !keeping_.holds(lane, start)) return;
-    luck_[start] = kNever;
+    log_uniforms_[start] = kNever;
     --report_.offered;
   }
 
@@ -97,8 +97,8 @@ class ChainGroup {
     const std::size_t passed = *std::max_element(passed_.begin(), passed_.end());
     for (std::size_t i = 0; i < longest; i += kLanes) {
       const bool inside = i + kLanes <= whole;
-      turn(parts, i, inside, logs_, kNever, square_logs_);
-      turn(parts, i, inside, luck_, kNever, square_luck_);
+      turn(parts, i, inside, logs_, R(0), square_logs_);
+      turn(parts, i, inside, log_uniforms_, kNever, square_uniforms_);
       for (std::size_t c = 0; c < kColumns; ++c) turn(parts, i, inside, from_[c], R(0), squares_[c]);
       visit();
       if (!kKeeps) continue;
@@ -120,11 +120,9 @@ class ChainGroup {
       return;
     }
     alignas(64) Square rows;
-    rows.fill(none);
     for (std::size_t lane = 0; lane < kLanes; ++lane)
-      if (i < parts.length(lane))
-        std::copy_n(column + parts.begin[lane] + i, std::min(kLanes, parts.length(lane) - i),
-                    rows.data() + lane * kLanes);
+      lanes::load_first(column + parts.begin[lane] + i, parts.length(lane) - std::min(i, parts.length(lane)), V(none))
+          .store(rows.data() + lane * kLanes);
     lanes::transpose<R>([&](std::size_t lane) { return rows.data() + lane * kLanes; }, row);
   }
 
@@ -136,7 +134,7 @@ class ChainGroup {
     std::size_t accepted = 0;
     lanes::unrolled<kLanes>([&](std::size_t step) {
       const V log = V::load(square_logs_.data() + step * kLanes);
-      const auto accepts = log_at < log + V::load(square_luck_.data() + step * kLanes);
+      const auto accepts = log_at < log - V::load(square_uniforms_.data() + step * kLanes);
       log_at = lanes::select(accepts, log, log_at);
       lanes::unrolled<kColumns>([&](std::size_t c) {
         R* const row = squares_[c].data() + step * kLanes;
@@ -158,27 +156,27 @@ class ChainGroup {
   }
   /// The same where a square is not whole, or not all of it is kept.
   void turn_some_back(const Parts& parts, const Square& square, std::size_t i, R* to) const {
-    alignas(64) Square rows;
+    alignas(64) std::array<R, (kLanes + 1) * kLanes> rows;
     lanes::transpose<R>([&](std::size_t step) { return square.data() + step * kLanes; },
                         [&](std::size_t lane) { return rows.data() + lane * kLanes; });
     for (std::size_t lane = 0; lane < chains_; ++lane) {
       const std::size_t first = std::max(i, passed_[lane]);
       const std::size_t last = std::min(i + kLanes, parts.length(lane));
       if (first < last)
-        std::copy_n(rows.data() + lane * kLanes + (first - i), last - first,
-                    to + kept_[lane] + (first - passed_[lane]));
+        lanes::store_first(V::load(rows.data() + lane * kLanes + (first - i)), last - first,
+                           to + kept_[lane] + (first - passed_[lane]));
     }
   }
 
   const R* logs_;
-  R* luck_;
+  R* log_uniforms_;
   std::array<const R*, kColumns> from_;
   std::size_t chains_;  // in use; the other lanes repeat the last one
   Parts burning_, keeping_;
   std::array<std::size_t, kLanes> kept_{};    // where a chain's kept states go
   std::array<std::size_t, kLanes> passed_{};  // states of its own part that a chain does not keep
   alignas(64) Square square_logs_{};
-  alignas(64) Square square_luck_{};
+  alignas(64) Square square_uniforms_{};
   alignas(64) std::array<Square, kColumns> squares_{};
   V log_at_;                    // log weight of the current states
   std::array<V, kColumns> at_;  // what the columns tell of them

@@ -1,8 +1,10 @@
 #pragma once
 /// The IMH filters of the SIMD engine: proposals in blocks of vectors, chains side by side.
 ///
-/// A step visits every block of 1024 proposals once: their parents and their luck with the chain are drawn while
+/// A step visits every block of 1024 proposals once: their parents and what decides on them are drawn while
 /// parents come from memory, then they are moved, weighed and summed. The chains then only compare.
+
+#include <cstring>
 
 #include "mote/base/permutation.hpp"
 #include "mote/engine/plan.hpp"
@@ -47,7 +49,7 @@ class VectorMetropolisFilter final : public Filter {
         pass_(std::move(model), particles, set_, estimates == Estimates::kSpreads) {
     const std::size_t blocks = (layout_.proposals() + kBlock - 1) / kBlock;
     log_weights_.resize(blocks * kBlock);
-    luck_.resize(blocks * kBlock);
+    log_uniforms_.resize(blocks * kBlock);
     for (std::size_t k = 0; k < crew_.shares(blocks); ++k) desks_.emplace_back(set_.dimensions());
     if (kCarried == 0) number_proposals();
     pass<Source::kPrior, Weights::kEqual>(0, Purpose::kPrior, set_);
@@ -110,19 +112,22 @@ class VectorMetropolisFilter final : public Filter {
 
   /// What one share of a step works with.
   struct Desk : Pass::Desk {
-    AlignedVector<R> weights;      // of the block at hand
+    AlignedVector<R> scratch;      // weights of the block at hand, and what keeps them apart
     AlignedVector<Index> parents;  // of its proposals, with room for a vector more
     ChainReport chains;
 
     explicit Desk(std::size_t dimensions)
-        : Pass::Desk(dimensions), weights(kBlock), parents(kBlock + lanes::kWidth<R>) {}
+        : Pass::Desk(dimensions), scratch(kBlock + kApart), parents(kBlock + lanes::kWidth<R>) {}
   };
+
+  /// Half a page: a store one page and a line behind a load that comes next would seem to be what it waits for.
+  static constexpr std::size_t kApart = 2048 / sizeof(R);
 
   Address address(Step t, Purpose purpose, std::size_t b) const {
     return {seed_, static_cast<std::uint32_t>(t), purpose, static_cast<std::uint32_t>(b)};
   }
 
-  /// One pass over all blocks of `to`: parents, states, weights, sums, luck.
+  /// One pass over all blocks of `to`: parents, states, weights, sums.
   template <Source kSource, Weights kWeights>
   void pass(Step t, Purpose purpose, Particles<R>& to) {
     pass_.resize(to.size());
@@ -136,7 +141,7 @@ class VectorMetropolisFilter final : public Filter {
           for (std::size_t d = 0; d < to.dimensions(); ++d) std::copy_n(desk.to[d], pass_.size_of(b), desk.columns[d]);
         R* const logs = log_weights_.data() + b * kBlock;
         if constexpr (kWeights == Weights::kEqual) std::fill_n(logs, pass_.size_of(b), R(0));
-        pass_.template block<kSource, kWeights>(desk, b, address(t, purpose, b), desk.weights.data(), logs);
+        pass_.template block<kSource, kWeights>(desk, b, address(t, purpose, b), desk.scratch.data() + kApart, logs);
       }
     });
     weighted_ = &to;
@@ -147,29 +152,29 @@ class VectorMetropolisFilter final : public Filter {
   void fetch_parents(Desk& desk, Step t, std::size_t b) {
     const Deal deal{address(t, Purpose::kParent, b), address(t, Purpose::kAccept, b), pass_.size_of(b),
                     static_cast<Index>(layout_.kept)};
-    if (options_.parents == mote::Parents::kIid) return deal_out<true>(deal, set_, desk, luck_.data() + b * kBlock);
+    if (options_.parents == mote::Parents::kIid) return deal_out<true>(deal, set_, desk, log_uniforms_.data() + b * kBlock);
     const Permutation permutation(layout_.kept, seed_ ^ mixed(static_cast<std::uint64_t>(t)));
     Index member = static_cast<Index>(b * kBlock % layout_.kept);
     for (std::size_t i = 0; i < deal.count; ++i) {
       desk.parents[i] = options_.parents == mote::Parents::kSweep ? member : static_cast<Index>(permutation(member));
       member = member + 1 == deal.members ? 0 : member + 1;
     }
-    deal_out<false>(deal, set_, desk, luck_.data() + b * kBlock);
+    deal_out<false>(deal, set_, desk, log_uniforms_.data() + b * kBlock);
   }
 
   struct Deal {
-    Address parents, luck;
+    Address parents, uniforms;
     std::size_t count;
     Index members;
   };
   /// Draws and loads in one loop: while memory answers, the generators work.
   template <bool kDraws>
-  [[gnu::flatten, gnu::noinline]] static void deal_out(const Deal& deal, const Particles<R>& set, Desk& desk, R* luck) {
+  [[gnu::flatten, gnu::noinline]] static void deal_out(const Deal& deal, const Particles<R>& set, Desk& desk, R* log_uniforms) {
     constexpr std::size_t kWidth = lanes::kWidth<R>;
     const std::size_t count = deal.count;
     const Index members = deal.members;
     lanes::VectorDraw<R> parent(deal.parents);
-    lanes::VectorDraw<R> accept(deal.luck);
+    lanes::VectorDraw<R> accept(deal.uniforms);
     Index* const parents = desk.parents.data();
     const auto to = desk.columns;
     auto from = column_pointers<const R, Pass::kD>(set.dimensions());
@@ -177,11 +182,12 @@ class VectorMetropolisFilter final : public Filter {
     if constexpr (kDraws) parent.index(members, parents);
     for (std::size_t j = 0; j < count; j += kWidth) {
       if constexpr (kDraws) parent.index(members, parents + j + kWidth);
-      (-lanes::log_uniform(accept.uniform())).store(luck + j);
+      lanes::log_uniform(accept.uniform()).store(log_uniforms + j);
       // places behind the last proposal hold members, too: of a draw, or of a block before
       lanes::unrolled<kWidth>([&](std::size_t i) {
         const Index at = parents[j + i];
-        for (std::size_t d = 0; d < to.size(); ++d) to[d][j + i] = from[d][at];
+        // memcpy: moved as a whole number, which takes a port that the generators leave free
+        for (std::size_t d = 0; d < to.size(); ++d) std::memcpy(to[d] + j + i, from[d] + at, sizeof(R));
       });
     }
   }
@@ -195,7 +201,7 @@ class VectorMetropolisFilter final : public Filter {
     // shared out by the blocks' number, which says how much work there is
     crew_.run(blocks, [&](std::size_t share, std::size_t first, std::size_t last) {
       for (std::size_t g = groups * first / blocks; g < groups * last / blocks; ++g) {
-        const ChainReport group = Chains(layout_, g, log_weights_.data(), luck_.data(), from, starts).run(to);
+        const ChainReport group = Chains(layout_, g, log_weights_.data(), log_uniforms_.data(), from, starts).run(to);
         desks_[share].chains.offered += group.offered;
         desks_[share].chains.accepted += group.accepted;
       }
@@ -274,7 +280,7 @@ class VectorMetropolisFilter final : public Filter {
   ChainLayout layout_;
   Crew crew_;
   Particles<R> set_, proposals_;         // the unweighted set S_{t-1}; the proposals of this step
-  AlignedVector<R> log_weights_, luck_;  // of the proposals; luck: -log u
+  AlignedVector<R> log_weights_, log_uniforms_;  // of the proposals; the latter decide on them
   AlignedVector<R> numbers_, picks_;     // where chains do not carry the states
   Pass pass_;
   std::vector<Desk> desks_;
