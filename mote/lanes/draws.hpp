@@ -1,5 +1,6 @@
 #pragma once
-/// The addressed draws of base/draws.hpp, a vector of particles at a time: the same bits, eight generators side by side.
+/// The addressed draws of base/draws.hpp, a vector of particles at a time: the same bits, eight generators side by
+/// side.
 
 #include <vector>
 
@@ -22,8 +23,9 @@ class Generators {
     alignas(64) static constexpr std::array<std::uint64_t, 8> kLane{0, 1, 2, 3, 4, 5, 6, 7};
     const auto use = static_cast<std::uint32_t>(address.purpose) + (address.stream << 8U);
     for (std::uint64_t half = 0; half < 2; ++half) {
-      std::array<Words, 4> c{Words::all(address.block), Words::all(address.step), Words::all(use),
-                             Words::map([&](auto lane) { return hn::Add(lane, hn::Set(Tag{}, 8 * half)); }, Words::load(kLane.data()))};
+      std::array<Words, 4> c{
+          Words::all(address.block), Words::all(address.step), Words::all(use),
+          Words::map([&](auto lane) { return hn::Add(lane, hn::Set(Tag{}, 8 * half)); }, Words::load(kLane.data()))};
       encrypt(c, address.seed);
       s_[2 * half] = joined(c[0], c[1]);
       s_[2 * half + 1] = joined(c[2], c[3]);
@@ -119,7 +121,7 @@ class NormalPolynomials<float> {
   MOTE_INLINE Vector<float> entry(std::size_t j, const Registers<std::uint32_t>& exponent) const {
 #if HWY_TARGET <= HWY_AVX3
     using Register = Registers<float>::Register;
-    return Vector<float>(Registers<float>{{Register{_mm512_permutexvar_ps(exponent.r[0].raw, c_[j].r[0].raw)}}});
+    return Vector<float>(Registers<float>{{ Register { _mm512_permutexvar_ps(exponent.r[0].raw, c_[j].r[0].raw) } }});
 #else
     return Vector<float>(Registers<float>::map(
         [&](auto e) {
@@ -151,7 +153,10 @@ class NormalPolynomials<double> {
   static MOTE_INLINE Vector<double> from(const Part& part, const Registers<std::uint64_t>& u) {
     using Tag = Registers<std::uint64_t>::Tag;
     const auto v = Registers<std::uint64_t>::map(
-        [](auto x) { return hn::Or(hn::And(x, hn::Set(Tag{}, 0xFFFFFFFFFFFFFULL)), hn::Set(Tag{}, 0x3FF0000000000000ULL)); }, u);
+        [](auto x) {
+          return hn::Or(hn::And(x, hn::Set(Tag{}, 0xFFFFFFFFFFFFFULL)), hn::Set(Tag{}, 0x3FF0000000000000ULL));
+        },
+        u);
     const Vector<double> s = Vector<double>(v.template as<double>()) - Vector<double>(1.5);
     const auto exponent = Registers<std::uint64_t>::map([](auto x) { return hn::ShiftRight<52>(x); }, u);
     return horner<NormalTable::kDegreeDouble>(s, [&](std::size_t j) { return entry(part[j], exponent); });
@@ -159,7 +164,10 @@ class NormalPolynomials<double> {
   static MOTE_INLINE Vector<double> entry(const std::array<double, 8>& row, const Registers<std::uint64_t>& exponent) {
 #if HWY_TARGET <= HWY_AVX3
     using Register = Registers<double>::Register;
-    return Vector<double>(Registers<double>{{Register{_mm512_permutexvar_pd(exponent.r[0].raw, _mm512_load_pd(row.data()))}}});
+    return Vector<double>(Registers<double>{
+        { Register {
+          _mm512_permutexvar_pd(exponent.r[0].raw, _mm512_load_pd(row.data()))
+        } }});
 #else
     return Vector<double>(Registers<double>::map(
         [&](auto e) {
@@ -198,7 +206,8 @@ class VectorDraw {
     } else {
       using Tag = Registers<std::uint64_t>::Tag;
       const auto one_to_two = Registers<std::uint64_t>::map(
-          [](auto x) { return hn::Or(hn::ShiftRight<12>(x), hn::Set(Tag{}, 0x3FF0000000000000ULL)); }, generators_.next());
+          [](auto x) { return hn::Or(hn::ShiftRight<12>(x), hn::Set(Tag{}, 0x3FF0000000000000ULL)); },
+          generators_.next());
       return Vector<double>(one_to_two.template as<double>()) - Vector<double>(1.0 - 0x1p-53);
     }
   }
@@ -366,7 +375,8 @@ class ReadyDraw {
 
 /// Makes the draws of the next `count` particles, as ReadyDraw reads them from offset 0 on.
 template <class R>
-[[gnu::flatten, gnu::noinline]] void make_ready(VectorDraw<R>& source, const DrawPattern& pattern, std::size_t count, R* numbers) {
+[[gnu::flatten, gnu::noinline]] void make_ready(VectorDraw<R>& source, const DrawPattern& pattern, std::size_t count,
+                                                R* numbers) {
   VectorDraw<R> draw = source;
   const std::size_t draws = pattern.normal.size();
   if (draws == 1 && pattern.normal[0]) {

@@ -62,7 +62,8 @@ double worst_z(R scale) {
   const std::array<double, 4> expected{0, 1, 0, 3};
   const std::array<double, 4> variance{1, 2, 15, 96};
   double worst = 0;
-  for (std::size_t k = 0; k < 4; ++k) worst = std::max(worst, std::abs(sums[k] / n - expected[k]) / std::sqrt(variance[k] / n));
+  for (std::size_t k = 0; k < 4; ++k)
+    worst = std::max(worst, std::abs(sums[k] / n - expected[k]) / std::sqrt(variance[k] / n));
   for (std::size_t k = 0; k < 5; ++k) {
     const double p = std::erfc((static_cast<double>(k) + 1) / std::sqrt(2.0));
     worst = std::max(worst, std::abs(beyond[k] - n * p) / std::sqrt(n * p));

@@ -33,11 +33,13 @@ using Whole = std::conditional_t<std::is_same_v<R, float>, std::int32_t, std::in
 
 template <class R, std::size_t kBytes>
 MOTE_INLINE Registers<Whole<R>, kBytes> to_whole(const Vector<R, kBytes>& a) {
-  return Registers<Whole<R>, kBytes>::map([](auto x) { return hn::ConvertTo(typename Registers<Whole<R>, kBytes>::Tag{}, x); }, a.parts);
+  return Registers<Whole<R>, kBytes>::map(
+      [](auto x) { return hn::ConvertTo(typename Registers<Whole<R>, kBytes>::Tag{}, x); }, a.parts);
 }
 template <class R, std::size_t kBytes>
 MOTE_INLINE Vector<R, kBytes> from_whole(const Registers<Whole<R>, kBytes>& a) {
-  return Vector<R, kBytes>(Registers<R, kBytes>::map([](auto x) { return hn::ConvertTo(typename Registers<R, kBytes>::Tag{}, x); }, a));
+  return Vector<R, kBytes>(
+      Registers<R, kBytes>::map([](auto x) { return hn::ConvertTo(typename Registers<R, kBytes>::Tag{}, x); }, a));
 }
 template <class R>
 inline constexpr int kMantissaBits = std::is_same_v<R, float> ? 23 : 52;
@@ -48,7 +50,8 @@ inline constexpr int kBias = std::is_same_v<R, float> ? 127 : 1023;
 template <class R, std::size_t kBytes>
 MOTE_INLINE Vector<R, kBytes> power_of_two(const Vector<R, kBytes>& n) {
   const auto biased = to_whole(n + Vector<R, kBytes>(kBias<R>));
-  const auto shifted = Registers<Whole<R>, kBytes>::map([](auto x) { return hn::ShiftLeft<kMantissaBits<R>>(x); }, biased);
+  const auto shifted =
+      Registers<Whole<R>, kBytes>::map([](auto x) { return hn::ShiftLeft<kMantissaBits<R>>(x); }, biased);
   return Vector<R, kBytes>(shifted.template as<R>());
 }
 
@@ -81,7 +84,8 @@ constexpr std::array<double, N> exp2_series() {
   return c;
 }
 /// Least-error polynomial of 2^f on [-1/2, 1/2] that is 1 at 0.
-inline constexpr std::array<double, 6> kExp2Float{1.0, 6.931469775e-01, 2.402224184e-01, 5.550733813e-02, 9.671529072e-03, 1.326476231e-03};
+inline constexpr std::array<double, 6> kExp2Float{
+    1.0, 6.931469775e-01, 2.402224184e-01, 5.550733813e-02, 9.671529072e-03, 1.326476231e-03};
 inline constexpr std::array<double, 12> kExp2Double = exp2_series<12>();
 
 }  // namespace detail
@@ -134,7 +138,7 @@ MOTE_INLINE Vector<R, kBytes> exp(const Vector<R, kBytes>& x) {
   if constexpr (kFloat) {
     const V r = fnma(n, V(-2.12194440e-4), fnma(n, V(0.693359375), bounded));
     const V p = detail::polynomial(r, std::array<double, 6>{5.0000001201e-1, 1.6666665459e-1, 4.1665795894e-2,
-                                                           8.3334519073e-3, 1.3981999507e-3, 1.9875691500e-4});
+                                                            8.3334519073e-3, 1.3981999507e-3, 1.9875691500e-4});
     y = fma(r * r, p, r) + V(1);
   } else {
     const V r = fnma(n, V(1.42860682030941723212e-6), fnma(n, V(6.93145751953125e-1), bounded));
@@ -160,10 +164,13 @@ MOTE_INLINE Vector<R, kBytes> log(const Vector<R, kBytes>& x) {
   const auto tiny = x < V(kFloat ? 0x1p-126 : 0x1p-1022);
   const V normal = select(tiny, x * V(kFloat ? 0x1p25 : 0x1p54), x);
   // x = 2^e m with m in [1/sqrt 2, sqrt 2): subtract the bits of 1/sqrt 2, what is left above the mantissa is e
-  constexpr auto kRootBits = kFloat ? static_cast<detail::Whole<R>>(0x3F3504F3) : static_cast<detail::Whole<R>>(0x3FE6A09E667F3BCDLL);
+  constexpr auto kRootBits =
+      kFloat ? static_cast<detail::Whole<R>>(0x3F3504F3) : static_cast<detail::Whole<R>>(0x3FE6A09E667F3BCDLL);
   const I bits = normal.parts.template as<detail::Whole<R>>();
-  const I exponent = I::map([&](auto b) { return hn::ShiftRight<detail::kMantissaBits<R>>(hn::Sub(b, hn::Set(T{}, kRootBits))); }, bits);
-  const I mantissa = I::map([&](auto b, auto e) { return hn::Sub(b, hn::ShiftLeft<detail::kMantissaBits<R>>(e)); }, bits, exponent);
+  const I exponent = I::map(
+      [&](auto b) { return hn::ShiftRight<detail::kMantissaBits<R>>(hn::Sub(b, hn::Set(T{}, kRootBits))); }, bits);
+  const I mantissa =
+      I::map([&](auto b, auto e) { return hn::Sub(b, hn::ShiftLeft<detail::kMantissaBits<R>>(e)); }, bits, exponent);
   const V m(mantissa.template as<R>());
   const V e = detail::from_whole<R>(exponent) - select(tiny, V(kFloat ? 25 : 54), V(0));
   const V f = m - V(1);
@@ -173,9 +180,10 @@ MOTE_INLINE Vector<R, kBytes> log(const Vector<R, kBytes>& x) {
   if constexpr (kFloat) {
     r = z * detail::polynomial(z, std::array<double, 4>{0.66666662693, 0.40000972152, 0.28498786688, 0.24279078841});
   } else {
-    r = z * detail::polynomial(z, std::array<double, 7>{6.666666666666735130e-01, 3.999999999940941908e-01, 2.857142874366239149e-01,
-                                                       2.222219843214978396e-01, 1.818357216161805012e-01, 1.531383769920937332e-01,
-                                                       1.479819860511658591e-01});
+    r = z * detail::polynomial(
+                z, std::array<double, 7>{6.666666666666735130e-01, 3.999999999940941908e-01, 2.857142874366239149e-01,
+                                         2.222219843214978396e-01, 1.818357216161805012e-01, 1.531383769920937332e-01,
+                                         1.479819860511658591e-01});
   }
   const V half_square = V(0.5) * f * f;
   const V high(kFloat ? 0.693359375 : 6.93147180369123816490e-01);
@@ -236,16 +244,19 @@ MOTE_INLINE SinCos<R, kBytes> sin_cos(const Vector<R, kBytes>& x) {
   V c;
   if constexpr (kFloat) {
     s = fma(z * r, polynomial(z, std::array<double, 3>{-1.6666654611e-1, 8.3321608736e-3, -1.9515295891e-4}), r);
-    c = fma(z * z, polynomial(z, std::array<double, 3>{4.166664568298827e-2, -1.388731625493765e-3, 2.443315711809948e-5}),
+    c = fma(z * z,
+            polynomial(z, std::array<double, 3>{4.166664568298827e-2, -1.388731625493765e-3, 2.443315711809948e-5}),
             fnma(z, V(0.5), V(1)));
   } else {
     s = fma(z * r,
-            polynomial(z, std::array<double, 6>{-1.66666666666666307295e-1, 8.33333333332211858878e-3, -1.98412698295895385996e-4,
-                                                2.75573136213857245213e-6, -2.50507477628578072866e-8, 1.58962301576546568060e-10}),
+            polynomial(z, std::array<double, 6>{-1.66666666666666307295e-1, 8.33333333332211858878e-3,
+                                                -1.98412698295895385996e-4, 2.75573136213857245213e-6,
+                                                -2.50507477628578072866e-8, 1.58962301576546568060e-10}),
             r);
     c = fma(z * z,
-            polynomial(z, std::array<double, 6>{4.16666666666665929218e-2, -1.38888888888730564116e-3, 2.48015872888517045348e-5,
-                                                -2.75573141792967388112e-7, 2.08757008419747316778e-9, -1.13585365213876817300e-11}),
+            polynomial(z, std::array<double, 6>{4.16666666666665929218e-2, -1.38888888888730564116e-3,
+                                                2.48015872888517045348e-5, -2.75573141792967388112e-7,
+                                                2.08757008419747316778e-9, -1.13585365213876817300e-11}),
             fnma(z, V(0.5), V(1)));
   }
   // quarter q: (s, c), (c, -s), (-s, -c), (-c, s)
@@ -266,12 +277,14 @@ MOTE_INLINE SinCos<R, kBytes> sin_cos(const Vector<R, kBytes>& x) {
 
 /// The largest argument that sin_cos() reduces well.
 template <class R>
-inline constexpr double kReducible = HWY_NATIVE_FMA ? (std::is_same_v<R, float> ? 0x1p13 : 0x1p26) : (std::is_same_v<R, float> ? 0x1p7 : 0x1p19);
+inline constexpr double kReducible = HWY_NATIVE_FMA ? (std::is_same_v<R, float> ? 0x1p13 : 0x1p26)
+                                                    : (std::is_same_v<R, float> ? 0x1p7 : 0x1p19);
 
 /// True if every lane is an argument that sin_cos() reduces well.
 template <class R, std::size_t kBytes>
 MOTE_INLINE bool reducible(const Vector<R, kBytes>& x) {
-  return (abs(x) < Vector<R, kBytes>(kReducible<R>)).bits() == static_cast<std::uint32_t>((std::uint64_t{1} << Vector<R, kBytes>::kLanes) - 1);
+  return (abs(x) < Vector<R, kBytes>(kReducible<R>)).bits() ==
+         static_cast<std::uint32_t>((std::uint64_t{1} << Vector<R, kBytes>::kLanes) - 1);
 }
 
 }  // namespace detail
@@ -307,13 +320,16 @@ MOTE_INLINE Vector<R, kBytes> atan_of_ratio(const Vector<R, kBytes>& top, const 
   const V z = t * t;
   const V base = select(steep, V(kPi / 4), V(0));
   if constexpr (std::is_same_v<R, float>) {
-    const V p = polynomial(z, std::array<double, 4>{-3.33329491539e-1, 1.99777106478e-1, -1.38776856032e-1, 8.05374449538e-2});
+    const V p =
+        polynomial(z, std::array<double, 4>{-3.33329491539e-1, 1.99777106478e-1, -1.38776856032e-1, 8.05374449538e-2});
     return base + fma(z * t, p, t);
   } else {
-    const V p = polynomial(z, std::array<double, 5>{-6.485021904942025371773e1, -1.228866684490136173410e2, -7.500855792314704667340e1,
-                                                    -1.615753718733365076637e1, -8.750608600031904122785e-1});
-    const V q = polynomial(z, std::array<double, 6>{1.945506571482613964425e2, 4.853903996359136964868e2, 4.328810604912902668951e2,
-                                                    1.650270098316988542046e2, 2.485846490142306297962e1, 1.0});
+    const V p = polynomial(
+        z, std::array<double, 5>{-6.485021904942025371773e1, -1.228866684490136173410e2, -7.500855792314704667340e1,
+                                 -1.615753718733365076637e1, -8.750608600031904122785e-1});
+    const V q = polynomial(
+        z, std::array<double, 6>{1.945506571482613964425e2, 4.853903996359136964868e2, 4.328810604912902668951e2,
+                                 1.650270098316988542046e2, 2.485846490142306297962e1, 1.0});
     const V rest = select(steep, V(3.061616997868382943065e-17), V(0));
     return base + (fma(z * t, p / q, t) + rest);
   }
@@ -346,7 +362,8 @@ MOTE_INLINE Vector<R, kBytes> atan(const Vector<R, kBytes>& x) {
   using V = Vector<R, kBytes>;
   const V ax = abs(x);
   const auto swapped = V(1) < ax;
-  const V a = detail::atan_of_ratio(select(swapped, V(1), min(ax, V(std::numeric_limits<R>::max()))), select(swapped, min(ax, V(std::numeric_limits<R>::max())), V(1)));
+  const V a = detail::atan_of_ratio(select(swapped, V(1), min(ax, V(std::numeric_limits<R>::max()))),
+                                    select(swapped, min(ax, V(std::numeric_limits<R>::max())), V(1)));
   return select(x == x, detail::with_sign(select(swapped, V(kPi / 2) - a, a), x), x);
 }
 

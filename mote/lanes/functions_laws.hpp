@@ -45,7 +45,11 @@ template <class R>
 double ulps(R got, Wider<R> exact) {
   const R rounded = static_cast<R>(exact);
   if (std::isnan(got) || std::isnan(rounded)) return std::isnan(got) == std::isnan(rounded) ? 0 : HUGE_VAL;
-  if (std::isinf(got) || std::isinf(rounded)) return got == rounded ? 0 : std::isinf(got) && std::abs(exact) > std::numeric_limits<R>::max() * (Wider<R>(1) - Wider<R>(1e-6)) ? 0 : HUGE_VAL;
+  if (std::isinf(got) || std::isinf(rounded))
+    return got == rounded ? 0
+           : std::isinf(got) && std::abs(exact) > std::numeric_limits<R>::max() * (Wider<R>(1) - Wider<R>(1e-6))
+               ? 0
+               : HUGE_VAL;
   const R size = std::max(std::abs(rounded), std::numeric_limits<R>::min());
   const Wider<R> unit = std::ldexp(Wider<R>(1), std::ilogb(size) - (std::numeric_limits<R>::digits - 1));
   return static_cast<double>(std::abs(static_cast<Wider<R>>(got) - exact) / unit);
@@ -64,7 +68,8 @@ using Arguments = std::function<void(const std::function<void(R)>&)>;
 /// Every stride-th float there is.
 inline Arguments<float> every_float(std::uint64_t stride) {
   return [stride](const auto& visit) {
-    for (std::uint64_t bits = 0; bits < (1ULL << 32U); bits += stride) visit(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+    for (std::uint64_t bits = 0; bits < (1ULL << 32U); bits += stride)
+      visit(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
   };
 }
 
@@ -123,7 +128,8 @@ void expect_pair_within(const char* name, F vector, G exact, double bound, std::
     }
     vector(Vector<R>::load(a.data()), Vector<R>::load(b.data())).store(out.data());
     for (std::size_t k = 0; k < kWidth<R>; ++k)
-      if (const double u = ulps<R>(out[k], exact(static_cast<Wider<R>>(a[k]), static_cast<Wider<R>>(b[k]))); u > found.ulps) {
+      if (const double u = ulps<R>(out[k], exact(static_cast<Wider<R>>(a[k]), static_cast<Wider<R>>(b[k])));
+          u > found.ulps) {
         found = {u, a[k], out[k]};
         other = b[k];
       }
@@ -134,11 +140,15 @@ void expect_pair_within(const char* name, F vector, G exact, double bound, std::
 
 template <class R>
 void expect_atan2_within(std::size_t count) {
-  expect_pair_within<R>("atan2", [](const auto& y, const auto& x) { return atan2(y, x); }, [](Wider<R> y, Wider<R> x) { return std::atan2(y, x); }, 4, count);
+  expect_pair_within<R>(
+      "atan2", [](const auto& y, const auto& x) { return atan2(y, x); },
+      [](Wider<R> y, Wider<R> x) { return std::atan2(y, x); }, 4, count);
 }
 template <class R>
 void expect_quotient_within(std::size_t count) {
-  expect_pair_within<R>("quotient", [](const auto& y, const auto& x) { return y / x; }, [](Wider<R> y, Wider<R> x) { return y / x; }, 2.5, count);
+  expect_pair_within<R>(
+      "quotient", [](const auto& y, const auto& x) { return y / x; }, [](Wider<R> y, Wider<R> x) { return y / x; }, 2.5,
+      count);
 }
 
 }  // namespace mote::lanes

@@ -30,10 +30,12 @@ void expect_special_values() {
   const R zero = 0;
   const R one = 1;
   for (const auto& law : unary_laws<R>())
-    for (const R x : {inf, -inf, nan, zero, -zero, std::numeric_limits<R>::max(), std::numeric_limits<R>::denorm_min()}) {
+    for (const R x :
+         {inf, -inf, nan, zero, -zero, std::numeric_limits<R>::max(), std::numeric_limits<R>::denorm_min()}) {
       const R got = first(law.vector(V(x)));
       const auto expected = static_cast<R>(law.exact(static_cast<Wider<R>>(x)));
-      EXPECT_TRUE(got == expected || (std::isnan(got) && std::isnan(expected)) || ulps(got, law.exact(static_cast<Wider<R>>(x))) <= law.bound)
+      EXPECT_TRUE(got == expected || (std::isnan(got) && std::isnan(expected)) ||
+                  ulps(got, law.exact(static_cast<Wider<R>>(x))) <= law.bound)
           << law.name << "(" << x << ") = " << got;
     }
   for (const R y : {inf, -inf, nan, zero, -zero, one, -one})

@@ -2,9 +2,9 @@
 /// The vector number type: sixteen floats or eight doubles, one particle a lane, which models accept as their S.
 ///
 /// A vector is one 512-bit register, two of 256 or four of 128 bits, whatever the file that includes this is compiled
-/// for; its width in lanes never changes, so neither do the addresses of random numbers. Everything lives in a namespace
-/// named after the instruction set: files compiled for different ones can be linked into one program. Built on Highway;
-/// docs/decisions/0004-vector-library.md.
+/// for; its width in lanes never changes, so neither do the addresses of random numbers. Everything lives in a
+/// namespace named after the instruction set: files compiled for different ones can be linked into one program. Built
+/// on Highway; docs/decisions/0004-vector-library.md.
 
 #include <array>
 #include <bit>
@@ -113,8 +113,9 @@ struct Mask {
   }
 };
 
-/// kBytes / sizeof(R) numbers at once: by default as many as a block's generators serve. With 128 bytes, every operation
-/// is done on two independent halves one after the other, which hides the latency of long chains of operations.
+/// kBytes / sizeof(R) numbers at once: by default as many as a block's generators serve. With 128 bytes, every
+/// operation is done on two independent halves one after the other, which hides the latency of long chains of
+/// operations.
 template <class R, std::size_t kBytes = 64>
 struct Vector {
   using Number = R;
@@ -128,8 +129,7 @@ struct Vector {
   MOTE_INLINE explicit Vector(const Parts& p) : parts(p) {}
   /// The same number in every lane.
   template <class T>
-    requires std::is_arithmetic_v<T>
-  MOTE_INLINE explicit Vector(T all) : parts(Parts::all(static_cast<R>(all))) {}
+  requires std::is_arithmetic_v<T> MOTE_INLINE explicit Vector(T all) : parts(Parts::all(static_cast<R>(all))) {}
 
   static MOTE_INLINE Vector load(const R* from) { return Vector(Parts::load(from)); }
   MOTE_INLINE void store(R* to) const { parts.store(to); }
@@ -174,7 +174,8 @@ struct Vector {
       return map(
           [](auto x, auto y) {
             const auto r = decltype(y){_mm512_rcp14_ps(y.raw)};
-            const auto e = decltype(y){_mm512_max_ps(_mm512_fnmadd_ps(y.raw, r.raw, _mm512_set1_ps(2.0F)), _mm512_set1_ps(0.5F))};
+            const auto e =
+                decltype(y){_mm512_max_ps(_mm512_fnmadd_ps(y.raw, r.raw, _mm512_set1_ps(2.0F)), _mm512_set1_ps(0.5F))};
             return hn::Mul(x, hn::Mul(r, e));
           },
           a, b);

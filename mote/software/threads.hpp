@@ -34,7 +34,8 @@ class Crew {
 
  private:
   struct Arena;
-  void run_shares(std::size_t blocks, const void* work, void (*call)(const void*, std::size_t, std::size_t, std::size_t));
+  void run_shares(std::size_t blocks, const void* work,
+                  void (*call)(const void*, std::size_t, std::size_t, std::size_t));
 
   std::size_t threads_;
   std::unique_ptr<Arena> arena_;

@@ -56,9 +56,7 @@ class BlockSums {
   std::size_t blocks() const { return weights_.size(); }
   std::size_t particles() const { return particles_; }
   void set(std::size_t block, const WeightSums& sums) { weights_[block] = sums; }
-  void set(std::size_t block, std::size_t d, const ComponentSums& sums) {
-    components_[block * dimensions_ + d] = sums;
-  }
+  void set(std::size_t block, std::size_t d, const ComponentSums& sums) { components_[block * dimensions_ + d] = sums; }
   double shift(std::size_t block) const { return weights_[block].shift; }
 
   Totals totals() const;

@@ -44,9 +44,7 @@ enum class Estimates {
 template <Model M, class R, class G = Prior>
 class VectorImportanceFilter final : public Filter {
  public:
-  /// Small states leave registers for two vectors side by side.
-  static constexpr std::size_t kBytes = kComponents<M> == 1 || kComponents<M> == 2 ? (std::is_same_v<R, double> ? 128 : 64) : 64;
-  using V = lanes::Vector<R, kBytes>;
+  using V = lanes::Vector<R>;
   using State = StateOf<M, V>;
 
   VectorImportanceFilter(M model, std::size_t particles, std::uint64_t seed, const SelectionOptions& selection,
@@ -134,8 +132,8 @@ class VectorImportanceFilter final : public Filter {
   /// How far from 1 a block's sum of weights may be in the expected scale: squares of weights stay numbers.
   static constexpr double kLeastSum = std::is_same_v<R, float> ? 0x1p-40 : 0x1p-400;
 
-  enum class Source { kProposal, kModel, kPrior, kStay };      ///< where new states come from
-  enum class Weights { kFresh, kCarried, kKept, kEqual };      ///< fresh and carried take in the rows' likelihood
+  enum class Source { kProposal, kModel, kPrior, kStay };  ///< where new states come from
+  enum class Weights { kFresh, kCarried, kKept, kEqual };  ///< fresh and carried take in the rows' likelihood
   enum class Parents { kInPlace, kMapped, kListed };
 
   /// What one share of a step works with.
@@ -143,7 +141,7 @@ class VectorImportanceFilter final : public Filter {
     SurvivorStream<R, kD> stream;
     std::vector<AlignedVector<R>> parents;
     ColumnPointers<R, kD> columns, to;
-    AlignedVector<R> numbers;                        // draws made ahead
+    AlignedVector<R> numbers;                    // draws made ahead
     std::optional<lanes::VectorDraw<R>> source;  // that make them
 
     explicit Desk(std::size_t dimensions)
@@ -191,8 +189,7 @@ class VectorImportanceFilter final : public Filter {
     if constexpr (kSource == Source::kModel) model_.template next<V>(1, state, draw);
     if constexpr (kSource == Source::kPrior) model_.template initial<V>(draw);
     patterns_[static_cast<std::size_t>(kSource)] = draw.pattern();
-    for (Desk& desk : desks_)
-      desk.numbers.resize(std::max(desk.numbers.size(), draw.pattern().normal.size() * kBlock));
+    for (Desk& desk : desks_) desk.numbers.resize(std::max(desk.numbers.size(), draw.pattern().normal.size() * kBlock));
   }
 
   /// One pass over all blocks: states from their parents, weights, sums.
@@ -281,14 +278,15 @@ class VectorImportanceFilter final : public Filter {
   /// States and weights of one block, and its sums.
   template <Source kSource, Weights kWeights>
   void block(Desk& desk, std::size_t b, const Address& address, R* weights) {
-    if constexpr (kSource == Source::kProposal && kWeights == Weights::kFresh)
+    // a state of a size that is not known lives in memory, and its loop gains nothing by being one
+    if constexpr (kD > 0 && kSource == Source::kProposal && kWeights == Weights::kFresh)
       if (spreads_ ? expected_block<true>(desk, b, address, weights) : expected_block<false>(desk, b, address, weights))
         return;
     any_block<kSource, kWeights>(desk, b, address, weights);
   }
 
-  /// One pass over a block whose largest weight is about the last step's: weights are formed as they come, in its scale.
-  /// False if it was not so, or a density was no number: then nothing has been noted.
+  /// One pass over a block whose largest weight is about the last step's: weights are formed as they come, in its
+  /// scale. False if it was not so, or a density was no number: then nothing has been noted.
   template <bool kSpread>
   bool expected_block(Desk& desk, std::size_t b, const Address& address, R* weights) {
     const std::size_t n = size_of(b);
@@ -356,7 +354,7 @@ class VectorImportanceFilter final : public Filter {
     constexpr bool kWeighs = Scene<kSource, kWeights>::kWeighs;
     const std::size_t n = size_of(b);
     R* const logs = carries_ ? log_weights_.data() + b * kBlock : weights;
-    const Scene<kSource, kWeights> scene{model_, proposal_, static_cast<Step>(address.step), rows_, mass_, logs,
+    const Scene<kSource, kWeights> scene{model_,       proposal_, static_cast<Step>(address.step), rows_, mass_, logs,
                                          desk.columns, desk.to};
     V most(kNothing);
     desk.start(address);
@@ -370,8 +368,8 @@ class VectorImportanceFilter final : public Filter {
   }
 
   template <class S>
-  [[gnu::flatten, gnu::noinline]] static V any_chunk(const S& scene, std::size_t start, std::size_t end,
-                                                     const R* numbers, R* logs, std::size_t n) {
+  [[gnu::noinline]] static V any_chunk(const S& scene, std::size_t start, std::size_t end, const R* numbers, R* logs,
+                                       std::size_t n) {
     const S here = scene;
     const std::conditional_t<std::is_trivially_copyable_v<M>, M, const M&> model = scene.model;
     V most(kNothing);
@@ -432,7 +430,8 @@ class VectorImportanceFilter final : public Filter {
       auto before = blank_state<V>(model_here);
       each_component(before, [&](std::size_t d) { before[d] = V::load(from[d] + j); });
       const auto x = [&] {
-        if constexpr (kSource == Source::kProposal) return proposal.template propose<V>(model_here, t, before, rows, draw);
+        if constexpr (kSource == Source::kProposal)
+          return proposal.template propose<V>(model_here, t, before, rows, draw);
         if constexpr (kSource == Source::kModel) return model_here.template next<V>(t, before, draw);
         if constexpr (kSource == Source::kPrior) return model_here.template initial<V>(draw);
         if constexpr (kSource == Source::kStay) return before;
@@ -461,7 +460,9 @@ class VectorImportanceFilter final : public Filter {
     constexpr bool kWeighs = kWeights == Weights::kFresh || kWeights == Weights::kCarried;
     const std::size_t n = size_of(b);
     WeightSums block;
-    block.shift = kWeighs ? std::ceil(static_cast<double>(top) * std::numbers::log2e) : kWeights == Weights::kEqual ? 0 : sums_.shift(b);
+    block.shift = kWeighs                       ? std::ceil(static_cast<double>(top) * std::numbers::log2e)
+                  : kWeights == Weights::kEqual ? 0
+                                                : sums_.shift(b);
     if (kWeighs && !(top > kNothing)) {
       std::fill(weights, weights + kBlock, R(0));
       sums_.set(b, {-kInfinity, 0, 0});
@@ -575,9 +576,9 @@ class VectorImportanceFilter final : public Filter {
   Parents parents_ = Parents::kInPlace;
   ChildMap map_;
   std::vector<Index> ancestors_;
-  bool level_ = true;  // all particles weigh the same before the next step
+  bool level_ = true;    // all particles weigh the same before the next step
   double expected_ = 0;  // log2 scale in which the next weights are tried
-  double mass_ = 0;    // log sum of the carried log weights
+  double mass_ = 0;      // log sum of the carried log weights
   mutable std::vector<double> shown_;
 };
 

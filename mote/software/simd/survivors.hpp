@@ -107,7 +107,8 @@ class SurvivorStream {
     const std::size_t before = size_;
     append(block, start, n, first, end);
     if (size_ == before) {  // rounding hid the block's only children
-      const auto heaviest = static_cast<std::size_t>(std::max_element(weights_ + start, weights_ + start + n) - weights_);
+      const auto heaviest =
+          static_cast<std::size_t>(std::max_element(weights_ + start, weights_ + start + n) - weights_);
       keep(heaviest, first);
     }
     starts_[before] = first;  // nor may it hide the first of them
@@ -171,8 +172,9 @@ class SurvivorStream {
         const __m512 through = _mm512_add_ps(sums, carry);
         carry = _mm512_add_ps(carry, _mm512_permutexvar_ps(top, sums));
         const __m512i past = _mm512_min_epi32(
-            last, _mm512_add_epi32(vector_base, _mm512_cvt_roundps_epi32(_mm512_fmadd_ps(through, vector_scale, vector_rest),
-                                                                         _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC)));
+            last,
+            _mm512_add_epi32(vector_base, _mm512_cvt_roundps_epi32(_mm512_fmadd_ps(through, vector_scale, vector_rest),
+                                                                   _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC)));
         const __m512i child = _mm512_alignr_epi32(past, previous, 15);
         if (__builtin_expect(_mm512_cmplt_epi32_mask(past, child) != 0, 0)) {
           size_ = size;
@@ -203,8 +205,9 @@ class SurvivorStream {
         const __m512d through = _mm512_add_pd(sums, carry);
         carry = _mm512_add_pd(carry, _mm512_permutexvar_pd(top, sums));
         const __m256i past = _mm256_min_epi32(
-            last, _mm256_add_epi32(vector_base, _mm512_cvt_roundpd_epi32(_mm512_fmadd_pd(through, vector_scale, vector_rest),
-                                                                         _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC)));
+            last,
+            _mm256_add_epi32(vector_base, _mm512_cvt_roundpd_epi32(_mm512_fmadd_pd(through, vector_scale, vector_rest),
+                                                                   _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC)));
         const __m256i child = _mm256_alignr_epi32(past, previous, 7);
         if (__builtin_expect(_mm256_cmplt_epi32_mask(past, child) != 0, 0)) {
           size_ = size;
@@ -257,11 +260,14 @@ class SurvivorStream {
         const std::uint64_t low = detail::kRunningCounts[later & 255U];
         if constexpr (std::is_same_v<R, float>) {
 #ifdef __AVX512VPOPCNTDQ__
-          const __m512i up_to = _mm512_set_epi32(0xFFFF, 0x7FFF, 0x3FFF, 0x1FFF, 0xFFF, 0x7FF, 0x3FF, 0x1FF, 0xFF, 0x7F, 0x3F, 0x1F, 0xF, 7, 3, 1);
-          const __m512i index = _mm512_popcnt_epi32(_mm512_and_si512(_mm512_set1_epi32(static_cast<int>(later)), up_to));
+          const __m512i up_to = _mm512_set_epi32(0xFFFF, 0x7FFF, 0x3FFF, 0x1FFF, 0xFFF, 0x7FF, 0x3FF, 0x1FF, 0xFF, 0x7F,
+                                                 0x3F, 0x1F, 0xF, 7, 3, 1);
+          const __m512i index =
+              _mm512_popcnt_epi32(_mm512_and_si512(_mm512_set1_epi32(static_cast<int>(later)), up_to));
 #else
           const std::uint64_t high = detail::kRunningCounts[later >> 8U] + (low >> 56U) * 0x0101010101010101ULL;
-          const __m512i index = _mm512_cvtepu8_epi32(_mm_set_epi64x(static_cast<long long>(high), static_cast<long long>(low)));
+          const __m512i index =
+              _mm512_cvtepu8_epi32(_mm_set_epi64x(static_cast<long long>(high), static_cast<long long>(low)));
 #endif
           for (std::size_t d = 0; d < to.size(); ++d)
             _mm512_store_ps(to[d] + out + v, _mm512_permutexvar_ps(index, _mm512_loadu_ps(values[d] + from)));
