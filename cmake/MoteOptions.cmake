@@ -24,22 +24,24 @@ target_compile_options(mote_arithmetic INTERFACE -ffp-contract=off -fno-math-err
 # Eigen's alignment depends on -march; without vectors a program and an installed library always agree (its matrices are small here).
 target_compile_definitions(mote_arithmetic INTERFACE EIGEN_DONT_VECTORIZE)
 
-# What only our own files are compiled with.
+# What only our own files are compiled with; mote_strict adds the processor that they are compiled for.
+add_library(mote_warnings INTERFACE)
 add_library(mote_strict INTERFACE)
-target_compile_options(mote_strict INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
+target_link_libraries(mote_strict INTERFACE mote_warnings)
+target_compile_options(mote_warnings INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror
                        $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>)  # clang counts it to -Wconversion, g++ does not
 # g++ 12 sees these in memcpy and intrinsics that it has inlined from libstdc++ and Boost, where the sizes are right.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  target_compile_options(mote_strict INTERFACE -Wno-stringop-overread -Wno-stringop-overflow -Wno-maybe-uninitialized -Wno-array-bounds -Wno-restrict)
+  target_compile_options(mote_warnings INTERFACE -Wno-stringop-overread -Wno-stringop-overflow -Wno-maybe-uninitialized -Wno-array-bounds -Wno-restrict)
 endif()
 if(MOTE_NATIVE)
   target_compile_options(mote_strict INTERFACE -march=native)
 endif()
 if(MOTE_SANITIZE)
-  target_compile_options(mote_strict INTERFACE -fsanitize=${MOTE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
-  target_link_options(mote_strict INTERFACE -fsanitize=${MOTE_SANITIZE})
+  target_compile_options(mote_warnings INTERFACE -fsanitize=${MOTE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(mote_warnings INTERFACE -fsanitize=${MOTE_SANITIZE})
 endif()
 if(MOTE_COVERAGE)
-  target_compile_options(mote_strict INTERFACE --coverage -fprofile-update=atomic -Og)
-  target_link_options(mote_strict INTERFACE --coverage)
+  target_compile_options(mote_warnings INTERFACE --coverage -fprofile-update=atomic -Og)
+  target_link_options(mote_warnings INTERFACE --coverage)
 endif()

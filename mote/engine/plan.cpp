@@ -63,11 +63,29 @@ std::string_view name_of(FilterKind filter) {
   return "";
 }
 
+std::string_view name_of(Engine engine) {
+  switch (engine) {
+    case Engine::kFastest:
+      return "fastest";
+    case Engine::kReference:
+      return "reference";
+    case Engine::kSimd:
+      return "simd";
+  }
+  return "";
+}
+
 double bytes_needed(const Plan& plan, std::size_t dimensions) {
   if (is_gaussian(plan.filter))
     return static_cast<double>(plan.particles + 2 * dimensions) * (static_cast<double>(dimensions) * 32 + 16);
   const double state = static_cast<double>(dimensions) * (plan.precision == Precision::kFloat ? 4 : 8);
   const auto n = static_cast<double>(plan.particles);
+  if (engine_of(plan) == Engine::kSimd) {
+    const double number = plan.precision == Precision::kFloat ? 4 : 8;
+    // weights for any other scheme or exponent are formed in double, and ancestors listed
+    const bool lists = plan.selection.scheme != &systematic_scheme() || plan.selection.exponent != 1;
+    return n * (2 * state + 3 * number + (lists ? 40 : 0)) + 1e6;
+  }
   if (plan.filter == FilterKind::kSisr || plan.filter == FilterKind::kDistributed) return n * (state + 48);
   if (plan.filter == FilterKind::kSqmc) return n * (2 * state + 48);
   const auto draws = static_cast<double>(plan.chain.draws == 0 ? plan.particles : plan.chain.draws);
@@ -78,6 +96,8 @@ double bytes_needed(const Plan& plan, std::size_t dimensions) {
 }
 
 void check(const Plan& plan, const std::string& where) {
+  require(plan.engine != Engine::kSimd || simd_has(plan), where, "--engine simd", "--filter sisr, the one it has",
+          "--filter " + std::string(name_of(plan.filter)), "Pass --engine reference, or leave it out.");
   require(plan.particles >= 1 && plan.particles <= kMostParticles, where, "--particles",
           fmt::format("an integer from 1 to {}", kMostParticles), std::to_string(plan.particles),
           "Pass --particles 1000.");

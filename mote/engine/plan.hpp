@@ -10,6 +10,11 @@ namespace mote {
 
 enum class FilterKind { kSisr, kImh, kAuxiliary, kDistributed, kSqmc, kEkf, kUkf };
 enum class Precision { kFloat, kDouble };
+enum class Engine {
+  kFastest,    ///< the fastest that has the plan's filter
+  kReference,  ///< slow and obvious: the referee
+  kSimd,       ///< vectors of particles
+};
 
 /// What to run. Defaults are the papers' filters.
 struct Plan {
@@ -22,7 +27,21 @@ struct Plan {
   ChainOptions chain;
   GroupOptions groups;
   OnCollapse on_collapse = OnCollapse::kStop;
+  Engine engine = Engine::kFastest;
+  std::size_t threads = 1;  ///< results never depend on them
 };
+
+/// Whether the SIMD engine has the plan's filter.
+inline bool simd_has(const Plan& plan) { return plan.filter == FilterKind::kSisr; }
+
+/// The engine that runs a plan.
+inline Engine engine_of(const Plan& plan) {
+  if (plan.engine != Engine::kFastest) return plan.engine;
+  return simd_has(plan) ? Engine::kSimd : Engine::kReference;
+}
+
+/// Name of an engine as on the command line.
+std::string_view name_of(Engine engine);
 
 /// Name of a filter as on the command line.
 std::string_view name_of(FilterKind filter);
@@ -30,7 +49,7 @@ std::string_view name_of(FilterKind filter);
 /// Whether a filter keeps one Gaussian law instead of particles.
 inline bool is_gaussian(FilterKind filter) { return filter == FilterKind::kEkf || filter == FilterKind::kUkf; }
 
-/// Bytes that a run of the reference engine needs for states of `dimensions` components, an upper bound.
+/// Bytes that a run needs for states of `dimensions` components, an upper bound.
 double bytes_needed(const Plan& plan, std::size_t dimensions);
 
 /// Refuses a plan whose numbers do not fit together (Refusal, kWrongUse), naming the option; `where` opens the

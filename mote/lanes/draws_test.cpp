@@ -36,6 +36,24 @@ TEST(VectorDraw, NormalNumbersAreTheScalarOnesWithinTheTablesError) {
   expect_same_draws<double>([](auto& d) { return d.normal(); }, [](auto& d) { return d.normal(); }, 2e-7);
 }
 
+template <class R>
+void expect_same_indices() {
+  const Address address{42, 7, Purpose::kTest, 3, 5};
+  std::array<std::uint32_t, kWidth<R>> lane{};
+  for (const std::uint32_t n : {1U, 2U, 1000U, 99991U, 1U << 28U}) {
+    BlockDraws<R> scalar(address);
+    VectorDraw<R> vector(address);
+    for (std::size_t at = 0; at < kBlock; at += kWidth<R>) {
+      vector.index(n, lane.data());
+      for (std::size_t i = 0; i < kWidth<R>; ++i) ASSERT_EQ(lane[i], scalar.particle(at + i).index(n)) << n;
+    }
+  }
+}
+TEST(VectorDraw, IndicesAreTheScalarOnes) {
+  expect_same_indices<float>();
+  expect_same_indices<double>();
+}
+
 // claim    normal() has the normal law, tails included
 // referee  its probabilities beyond 1 .. 5 standard deviations and its first four moments
 // design   2^26 draws of one seed

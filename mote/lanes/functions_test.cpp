@@ -53,6 +53,15 @@ TEST(Functions, TreatSpecialValuesAsTheStandardLibrary) {
   expect_special_values<double>();
 }
 
+TEST(Functions, LogsOfUniformNumbersKeepTheirError) {
+  for (std::uint32_t k = 0; k < (1U << 23U); k += 17) {
+    const float u = (static_cast<float>(k) + 0.5F) * 0x1p-23F;
+    const double exact = std::log(static_cast<double>(u));
+    ASSERT_NEAR(first(log_uniform(Vector<float>(u))), exact, 2e-6 - 6e-8 * exact) << u;
+    ASSERT_NEAR(first(log_uniform(Vector<double>(u))), exact, -3e-16 * exact) << u;
+  }
+}
+
 TEST(Functions, WeightsKeepTheirRelativeError) {
   for (double t = -120; t <= 0; t += 0.001) {
     EXPECT_NEAR(first(exp2_weight(Vector<float>(t))) / std::exp2(static_cast<float>(t)), 1, 3e-7) << t;

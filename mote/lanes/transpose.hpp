@@ -15,7 +15,6 @@ MOTE_INLINE void transpose(const From& from, const To& to) {
   constexpr std::size_t kRows = kWidth<R>;
 #if HWY_TARGET <= HWY_AVX3
   if constexpr (std::is_same_v<R, float>) {
-
     std::array<__m512, kRows> pairs;
     unrolled<kRows / 2>([&](std::size_t k) __attribute__((always_inline)) {
       const __m512 a = _mm512_loadu_ps(from(2 * k));

@@ -262,7 +262,8 @@ MOTE_INLINE Vector<R> load_first(const R* from, std::size_t count, const Vector<
 #if HWY_TARGET <= HWY_AVX3
   const typename Vector<R>::Tag tag;
   const auto mask = hn::FirstN(tag, count);
-  return Vector<R>::map([&](auto others) { return hn::IfThenElse(mask, hn::MaskedLoad(mask, tag, from), others); }, rest);
+  return Vector<R>::map([&](auto others) { return hn::IfThenElse(mask, hn::MaskedLoad(mask, tag, from), others); },
+                        rest);
 #else
   alignas(64) std::array<R, kWidth<R>> lane;
   rest.store(lane.data());

@@ -4,19 +4,18 @@
 #include <memory>
 #include <string>
 
-#include "mote/base/refusal.hpp"
-#include "mote/engine/plan.hpp"
 #include "mote/filter/imh.hpp"
 #include "mote/filter/kalman.hpp"
 #include "mote/filter/sisr.hpp"
 #include "mote/filter/sqmc.hpp"
+#include "mote/software/proposals.hpp"
 
 namespace mote {
 
 namespace reference {
 
 template <class R, class G, Model M>
-std::unique_ptr<Filter> with_proposal(const M& model, const Plan& plan) {
+std::unique_ptr<Filter> make(const M& model, const Plan& plan) {
   switch (plan.filter) {
     case FilterKind::kSisr:
       return make_sisr<R, G>(model, plan.particles, plan.seed, plan.selection, plan.on_collapse);
@@ -33,30 +32,6 @@ std::unique_ptr<Filter> with_proposal(const M& model, const Plan& plan) {
       break;  // they propose nothing: gaussian() makes them
   }
   return nullptr;
-}
-
-/// In which space a model has a transition density; one that names none has none.
-template <Model M>
-Density density_of(const M& model) {
-  if constexpr (HasTransition<M>) {
-    return model.density();
-  } else {
-    return Density::kNone;
-  }
-}
-
-/// Refuses a proposal whose weights the model cannot give.
-inline void check_density(Density density, const Plan& plan, const std::string& where) {
-  if (density == Density::kNone)
-    throw Refusal(ExitCode::kWrongUse,
-                  where + ": --proposal " + plan.proposal +
-                      ": the model has no transition density with these parameters (its state noise is zero or "
-                      "degenerate), so only the prior can propose. Pass --proposal prior.");
-  if (density == Density::kNoise && plan.filter == FilterKind::kImh)
-    throw Refusal(ExitCode::kWrongUse, where + ": --proposal " + plan.proposal +
-                                           ": the model's noise has fewer dimensions than its state, so the sum over "
-                                           "parents of p(x | x^i) in the IMH weight (12) does not exist. Pass --filter "
-                                           "auxiliary, whose weights (23) need no sum, or --proposal prior.");
 }
 
 /// A filter with one Gaussian law.
@@ -88,24 +63,6 @@ void check_points(const M& model, const Plan& plan, const std::string& where) {
                    std::to_string(point_dimensions(model)), "Pass --filter sisr."});
 }
 
-template <class R, Model M>
-std::unique_ptr<Filter> in_precision(const M& model, const Plan& plan, const std::string& where) {
-  std::unique_ptr<Filter> filter;
-  const auto offer = [&]<class G>(const G*) {
-    if (plan.proposal != G::kName || filter) return;
-    if constexpr (!std::is_same_v<G, Prior>) check_density(density_of(model), plan, where);
-    filter = with_proposal<R, G>(model, plan);
-  };
-  if constexpr (requires { typename M::Proposals; }) {
-    [&]<class... G>(const std::tuple<G...>*) {
-      (offer(static_cast<const G*>(nullptr)), ...);
-    }(static_cast<const typename M::Proposals*>(nullptr));
-  } else {
-    offer(static_cast<const Prior*>(nullptr));
-  }
-  return filter;
-}
-
 }  // namespace reference
 
 /// A filter of the reference engine for a model and a plan that has been checked.
@@ -117,12 +74,10 @@ template <Model M>
 std::unique_ptr<Filter> make_reference_filter(const M& model, const Plan& plan, const std::string& where) {
   if (is_gaussian(plan.filter)) return reference::gaussian(model, plan, where);
   reference::check_points(model, plan, where);
-  auto filter = plan.precision == Precision::kFloat ? reference::in_precision<float>(model, plan, where)
-                                                    : reference::in_precision<double>(model, plan, where);
-  if (!filter)
-    throw Refusal(ExitCode::kWrongUse, {where, "--proposal", "one of the model's proposals (see mote models NAME)",
-                                        plan.proposal, "Pass --proposal prior."});
-  return filter;
+  return with_proposal(model, plan, where, [&]<class G>(std::type_identity<G>) {
+    return plan.precision == Precision::kFloat ? reference::make<float, G>(model, plan)
+                                               : reference::make<double, G>(model, plan);
+  });
 }
 
 }  // namespace mote

@@ -32,7 +32,8 @@ class CatalogueModel {
   virtual std::vector<Quantity> states() const = 0;
   virtual std::vector<Column> columns() const = 0;
   virtual std::vector<ValueSource> sources() const = 0;
-  virtual std::unique_ptr<Filter> reference_filter(const Plan& plan, const std::string& where) const = 0;
+  /// A filter on the plan's engine.
+  virtual std::unique_ptr<Filter> filter(const Plan& plan, const std::string& where) const = 0;
   /// What solves the model's recordings exactly; nullptr: nothing known.
   virtual std::unique_ptr<referee::Solver> solver() const = 0;
   /// Draws a recording step by step, in no more memory than a step needs.

@@ -2,6 +2,7 @@
 /// Makes a catalogue entry of a model: everything the program does with it, instantiated here and nowhere else.
 
 #include "mote/app/catalogue/catalogue.hpp"
+#include "mote/app/catalogue/simd.hpp"
 #include "mote/software/reference.hpp"
 
 namespace mote {
@@ -14,8 +15,9 @@ class CatalogueModelOf final : public CatalogueModel {
   std::vector<Quantity> states() const override { return model_.states(); }
   std::vector<Column> columns() const override { return model_.columns(); }
   std::vector<ValueSource> sources() const override { return value_sources(model_); }
-  std::unique_ptr<Filter> reference_filter(const Plan& plan, const std::string& where) const override {
-    return make_reference_filter(model_, plan, where);
+  std::unique_ptr<Filter> filter(const Plan& plan, const std::string& where) const override {
+    return engine_of(plan) == Engine::kSimd ? simd_filter(model_, plan, where)
+                                            : make_reference_filter(model_, plan, where);
   }
   std::unique_ptr<referee::Solver> solver() const override { return referee::solver_of(model_); }
 

@@ -76,10 +76,10 @@ RunRequest request_for(const Job& job, const std::vector<std::string>& estimates
 
 RunRecord run_job(const Job& job, const Plan& plan, const RunRequest& request, const std::string& where) {
   check_memory(plan, request.states.size(), where);
-  const auto filter = job.model->reference_filter(plan, where);
+  const auto filter = job.model->filter(plan, where);
   RunRecord record = run(*filter, plan, job.recording, request);
   record.model = job.model_name;
-  record.engine = "reference";
+  record.engine = name_of(engine_of(plan));
   return record;
 }
 

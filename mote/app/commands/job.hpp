@@ -25,7 +25,7 @@ Job load_job(const std::string& model, const std::string& data_path, const std::
 /// A request for the job's states and the functions asked for.
 RunRequest request_for(const Job& job, const std::vector<std::string>& estimates, const std::string& where);
 
-/// Runs the plan on the reference engine.
+/// Runs the plan on its engine.
 ///
 /// error   Refusal: memory that does not suffice (kWrongUse), collapse (kCollapsed)
 RunRecord run_job(const Job& job, const Plan& plan, const RunRequest& request, const std::string& where);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <sched.h>
 
 #include "mote/filter/particles.hpp"
 
@@ -10,14 +11,20 @@ namespace mote {
 namespace {
 
 const std::vector<std::string> kFilters{"sisr", "imh", "auxiliary", "distributed", "sqmc", "ekf", "ukf"};
-const std::vector<std::string> kEngines{"reference"};
-const std::vector<std::string> kEnginesLater{"simd", "pipeline", "mpi"};
+const std::vector<std::string> kEngines{"fastest", "reference", "simd"};
+const std::vector<std::string> kEnginesLater{"pipeline", "mpi"};
 constexpr long long kMost = static_cast<long long>(kMostParticles);
 
 std::vector<std::string> scheme_names() {
   std::vector<std::string> names;
   for (const Scheme& scheme : schemes()) names.emplace_back(scheme.name);
   return names;
+}
+
+/// Cores that this process may use.
+std::size_t cores() {
+  cpu_set_t set;
+  return sched_getaffinity(0, sizeof set, &set) == 0 ? static_cast<std::size_t>(CPU_COUNT(&set)) : 1;
 }
 
 void refuse_what_is_not_there(const Arguments& arguments) {
@@ -29,9 +36,9 @@ void refuse_what_is_not_there(const Arguments& arguments) {
   if (std::find(kEnginesLater.begin(), kEnginesLater.end(), engine) != kEnginesLater.end())
     throw Refusal(
         ExitCode::kWrongUse,
-        fmt::format("{}: --engine {}: this version of mote does not have that engine yet. Pass --engine reference.",
-                    arguments.where(), engine));
-  arguments.choice("--engine", kEngines);
+        fmt::format(
+            "{}: --engine {}: this version of mote does not have that engine yet. Pass --engine simd or reference.",
+            arguments.where(), engine));
 }
 
 ChainOptions chain_from(const Arguments& arguments, FilterKind filter) {
@@ -96,7 +103,8 @@ std::vector<OptionSpec> plan_options() {
       {"--exchange-count", "M", "1", "particles that each group sends", groups},
       {"--group-weights", "HOW", "carried",
        "carried = properly weighted; reset = every group counts alike after resampling (PPF)", groups},
-      {"--engine", "NAME", "reference", "reference", engine},
+      {"--engine", "NAME", "fastest",
+       "simd (vectors and threads: sisr), reference (all filters), or the fastest that has the filter", engine},
       {"--threads", "K", "", "threads; results never depend on it; the reference engine uses one [all cores]", engine},
       {"--precision", "TYPE", "double", "float or double", engine},
       {"--proposers", "R", "", "pipeline engine: not in this version", engine},
@@ -125,7 +133,9 @@ Plan plan_from(const Arguments& arguments) {
   plan.groups.exchange = static_cast<Exchange>(arguments.choice("--exchange", {"none", "append", "replace", "swap"}));
   plan.groups.exchange_count = static_cast<std::size_t>(arguments.integer("--exchange-count", 1, kMost));
   plan.groups.carry_group_weights = arguments.choice("--group-weights", {"carried", "reset"}) == 0;
-  if (arguments.given("--threads")) arguments.integer("--threads", 1, 4096);
+  plan.engine = static_cast<Engine>(arguments.choice("--engine", kEngines));
+  plan.threads =
+      arguments.given("--threads") ? static_cast<std::size_t>(arguments.integer("--threads", 1, 4096)) : cores();
   check(plan, arguments.where());
   return plan;
 }

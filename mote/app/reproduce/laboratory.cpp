@@ -83,7 +83,7 @@ Laboratory::Bench Laboratory::bench_for(const Run& run) const {
   bench.job.model = model_with(merged(item_.recording.settings, run.settings), run.where);
   as_bad_data([&] {
     bench.plan = plan();
-    return bench.job.model->reference_filter(bench.plan, run.where);  // refuses what the model does not have
+    return bench.job.model->filter(bench.plan, run.where);  // refuses what the model does not have
   });
   return bench;
 }

@@ -49,10 +49,7 @@ enum class Estimates {
 template <Model M, class R, class G>
 class BlockPass {
  public:
-  /// Small states leave registers for two vectors side by side.
-  static constexpr std::size_t kBytes =
-      (kComponents<M> == 1 || kComponents<M> == 2) && std::is_same_v<R, double> ? 128 : 64;
-  using V = lanes::Vector<R, kBytes>;
+  using V = lanes::Vector<R>;
   using State = StateOf<M, V>;
   static constexpr std::size_t kLanes = V::kLanes;
   static constexpr std::size_t kD = kComponents<M>;
@@ -171,7 +168,8 @@ class BlockPass {
   ///         the rows are taken in; mass: what carried log weights sum to, log
   template <Source kSource, Weights kWeights>
   void block(Desk& desk, std::size_t b, const Address& address, R* weights, R* logs, double mass = 0) {
-    if constexpr (kSource == Source::kProposal && kWeights == Weights::kFresh)
+    // a state of a size that is not known lives in memory, and its loop gains nothing by being one
+    if constexpr (kD > 0 && kSource == Source::kProposal && kWeights == Weights::kFresh)
       if (spreads_ ? expected_block<true>(desk, b, address, weights, logs)
                    : expected_block<false>(desk, b, address, weights, logs))
         return;
@@ -317,8 +315,8 @@ class BlockPass {
   }
 
   template <class S>
-  [[gnu::flatten, gnu::noinline]] static V any_chunk(const S& scene, std::size_t start, std::size_t end,
-                                                     const R* numbers, R* logs, std::size_t n) {
+  [[gnu::noinline]] static V any_chunk(const S& scene, std::size_t start, std::size_t end, const R* numbers, R* logs,
+                                       std::size_t n) {
     const S here = scene;
     const std::conditional_t<std::is_trivially_copyable_v<M>, M, const M&> model = scene.model;
     V most(kNothing);
@@ -342,7 +340,7 @@ class BlockPass {
   }
 
   /// The first `count` lanes.
-  static MOTE_INLINE lanes::Mask<R, kBytes> leading_lanes(std::size_t count) {
+  static MOTE_INLINE lanes::Mask<R> leading_lanes(std::size_t count) {
     alignas(64) std::array<R, kLanes> lane{};
     for (std::size_t i = 0; i < kLanes; ++i) lane[i] = i < count ? R(1) : R(0);
     return V(0) < V::load(lane.data());

@@ -152,7 +152,8 @@ class VectorMetropolisFilter final : public Filter {
   void fetch_parents(Desk& desk, Step t, std::size_t b) {
     const Deal deal{address(t, Purpose::kParent, b), address(t, Purpose::kAccept, b), pass_.size_of(b),
                     static_cast<Index>(layout_.kept)};
-    if (options_.parents == mote::Parents::kIid) return deal_out<true>(deal, set_, desk, log_uniforms_.data() + b * kBlock);
+    if (options_.parents == mote::Parents::kIid)
+      return deal_out<true>(deal, set_, desk, log_uniforms_.data() + b * kBlock);
     const Permutation permutation(layout_.kept, seed_ ^ mixed(static_cast<std::uint64_t>(t)));
     Index member = static_cast<Index>(b * kBlock % layout_.kept);
     for (std::size_t i = 0; i < deal.count; ++i) {
@@ -169,7 +170,8 @@ class VectorMetropolisFilter final : public Filter {
   };
   /// Draws and loads in one loop: while memory answers, the generators work.
   template <bool kDraws>
-  [[gnu::flatten, gnu::noinline]] static void deal_out(const Deal& deal, const Particles<R>& set, Desk& desk, R* log_uniforms) {
+  [[gnu::flatten, gnu::noinline]] static void deal_out(const Deal& deal, const Particles<R>& set, Desk& desk,
+                                                       R* log_uniforms) {
     constexpr std::size_t kWidth = lanes::kWidth<R>;
     const std::size_t count = deal.count;
     const Index members = deal.members;
@@ -279,9 +281,9 @@ class VectorMetropolisFilter final : public Filter {
   OnCollapse on_collapse_;
   ChainLayout layout_;
   Crew crew_;
-  Particles<R> set_, proposals_;         // the unweighted set S_{t-1}; the proposals of this step
+  Particles<R> set_, proposals_;                 // the unweighted set S_{t-1}; the proposals of this step
   AlignedVector<R> log_weights_, log_uniforms_;  // of the proposals; the latter decide on them
-  AlignedVector<R> numbers_, picks_;     // where chains do not carry the states
+  AlignedVector<R> numbers_, picks_;             // where chains do not carry the states
   Pass pass_;
   std::vector<Desk> desks_;
   const Particles<R>* weighted_ = &set_;

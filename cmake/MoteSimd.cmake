@@ -1,0 +1,47 @@
+# The SIMD engine is compiled once for every instruction set; the program chooses at run time.
+#
+# -ffp-contract=fast: a product and a sum become one instruction. -fno-trapping-math, -fno-signed-zeros: constants leave
+# loops, and x + 0 is x; no result depends on exceptions or on the sign of a zero. -fno-gnu-unique: such symbols stay
+# global whatever objcopy is told.
+set(MOTE_VECTOR_OPTIONS -ffp-contract=fast -fno-math-errno -fno-trapping-math -fno-signed-zeros -Wno-ignored-attributes -Wno-attributes
+    $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
+set(MOTE_ISA_SSE4 -march=x86-64-v2 -maes -mpclmul) # the least that Highway 1.0.3 has vectors for with g++ 12.2
+set(MOTE_ISA_AVX2 -march=x86-64-v3 -maes -mpclmul)
+set(MOTE_ISA_AVX512 -march=x86-64-v4 -maes -mpclmul)
+if(MOTE_SANITIZE OR MOTE_COVERAGE OR MOTE_FUZZ)
+  set(MOTE_ISAS SSE4 AVX2) # one wide and one narrow: instrumented builds are slow enough
+else()
+  set(MOTE_ISAS SSE4 AVX2 AVX512)
+endif()
+
+# mote_simd(<target> NAME <name> SOURCES <files>): compiles the files for every instruction set and adds them to the target.
+# Each set becomes one object whose only global symbols are simd_filter(...): an inline function of another header that
+# was compiled for AVX-512 there must never be the one that the linker picks for everybody.
+function(mote_simd target)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
+  foreach(isa IN LISTS MOTE_ISAS)
+    string(TOLOWER ${isa} name)
+    set(copies "")
+    foreach(source IN LISTS ARG_SOURCES) # options belong to a source: each set has copies of its own
+      cmake_path(GET source STEM stem)
+      set(copy ${CMAKE_CURRENT_BINARY_DIR}/simd/${name}/${stem}_${name}.cpp)
+      file(CONFIGURE OUTPUT ${copy} CONTENT "#include \"${source}\"\n" @ONLY)
+      list(APPEND copies ${copy})
+    endforeach()
+    set_source_files_properties(${copies} PROPERTIES COMPILE_OPTIONS "${MOTE_ISA_${isa}};${MOTE_VECTOR_OPTIONS}")
+    add_library(${target}_${name} OBJECT ${copies})
+    target_link_libraries(${target}_${name} PRIVATE ${ARG_LINKS} mote_warnings)
+    if(MOTE_SANITIZE OR MOTE_COVERAGE)
+      target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_${name}>)
+    else()
+      set(object ${CMAKE_CURRENT_BINARY_DIR}/${target}_${name}.o)
+      add_custom_command(OUTPUT ${object}
+        COMMAND ${CMAKE_LINKER} -r --force-group-allocation -o ${object} $<TARGET_OBJECTS:${target}_${name}>
+        COMMAND ${CMAKE_OBJCOPY} --wildcard --keep-global-symbol=*simd_filter* ${object}
+        DEPENDS ${target}_${name} $<TARGET_OBJECTS:${target}_${name}> COMMAND_EXPAND_LISTS VERBATIM)
+      set_source_files_properties(${object} PROPERTIES EXTERNAL_OBJECT TRUE GENERATED TRUE)
+      target_sources(${target} PRIVATE ${object})
+    endif()
+    target_compile_definitions(${target} PUBLIC MOTE_SIMD_${isa})
+  endforeach()
+endfunction()

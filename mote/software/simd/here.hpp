@@ -1,0 +1,37 @@
+#pragma once
+/// The SIMD engine for the instruction set that the including file is compiled for.
+///
+/// Compile that file with -march=... -ffp-contract=fast -fno-math-errno -fno-trapping-math -fno-signed-zeros, and keep
+/// what else it holds small: inline functions of other headers are compiled for that instruction set, too.
+
+#include <string>
+
+#include "mote/software/proposals.hpp"
+#include "mote/software/simd/importance.hpp"
+#include "mote/software/simd/isa.hpp"
+
+namespace mote {
+inline namespace HWY_NAMESPACE {
+
+/// The instruction set of this file.
+inline constexpr Isa kIsaHere = HWY_TARGET <= HWY_AVX3   ? Isa::kAvx512
+                                : HWY_TARGET <= HWY_AVX2 ? Isa::kAvx2
+                                                         : Isa::kSse4;
+
+/// A filter of the SIMD engine for a plan that has been checked and that simd_has().
+///
+/// error   Refusal (kWrongUse) when the model has no proposal of that name, or its weights do not exist
+template <Model M>
+std::unique_ptr<Filter> make_vector_filter(const M& model, const Plan& plan, const std::string& where,
+                                           Estimates estimates = Estimates::kSpreads) {
+  return with_proposal(model, plan, where, [&]<class G>(std::type_identity<G>) -> std::unique_ptr<Filter> {
+    const auto make = [&]<class R>(std::type_identity<R>) -> std::unique_ptr<Filter> {
+      return std::make_unique<VectorImportanceFilter<M, R, G>>(model, plan.particles, plan.seed, plan.selection,
+                                                               plan.on_collapse, plan.threads, estimates);
+    };
+    return plan.precision == Precision::kFloat ? make(std::type_identity<float>()) : make(std::type_identity<double>());
+  });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace mote
