@@ -44,14 +44,16 @@ class Chain {
 ChainReport run_chains(const ChainLayout& layout, std::span<const double> log_weights,
                        std::span<const double> log_uniforms, std::span<const Index> starts, std::span<Index> picks) {
   ChainReport report;
+  const Cut drawn(layout.draws, layout.chains);
+  const Cut kept_by(layout.kept, layout.chains);
   for (std::size_t k = 0; k < layout.chains; ++k) {
     Chain chain(log_weights, log_uniforms, report);
     if (!starts.empty()) chain.start(starts[k]);
     for (std::size_t b = 0; b < layout.burn_in; ++b) chain.visit(layout.draws + k * layout.burn_in + b);
-    const std::size_t stop = first_of_part(layout.draws, layout.chains, k + 1);
-    const std::size_t kept_first = first_of_part(layout.kept, layout.chains, k);
-    const std::size_t kept = first_of_part(layout.kept, layout.chains, k + 1) - kept_first;
-    for (std::size_t j = first_of_part(layout.draws, layout.chains, k); j < stop; ++j) {
+    const std::size_t stop = drawn.begin(k + 1);
+    const std::size_t kept_first = kept_by.begin(k);
+    const std::size_t kept = kept_by.begin(k + 1) - kept_first;
+    for (std::size_t j = drawn.begin(k); j < stop; ++j) {
       const std::size_t at = chain.visit(j);
       if (j + kept >= stop) picks[kept_first + (j + kept - stop)] = static_cast<Index>(at);
     }

@@ -21,11 +21,13 @@ struct ChainLayout {
   std::size_t proposals() const { return draws + chains * burn_in; }
 };
 
-/// The part [first_of_part(n, parts, k), first_of_part(n, parts, k + 1)) of n that part k of `parts` gets: the first
-/// n mod parts get one more.
-inline std::size_t first_of_part(std::size_t n, std::size_t parts, std::size_t k) {
-  return k * (n / parts) + std::min(k, n % parts);
-}
+/// n cut into parts: part k is [begin(k), begin(k + 1)), and the first n mod parts of them are one longer.
+struct Cut {
+  std::size_t length, longer;
+
+  Cut(std::size_t n, std::size_t parts) : length(n / parts), longer(n % parts) {}
+  std::size_t begin(std::size_t k) const { return k * length + std::min(k, longer); }
+};
 
 /// Counts of a run of chains.
 struct ChainReport {

@@ -34,14 +34,15 @@ class ChainGroup {
   ChainGroup(const ChainLayout& layout, std::size_t g, const R* logs, R* log_uniforms,
              const std::array<const R*, kColumns>& from, std::span<const Index> starts)
       : logs_(logs), log_uniforms_(log_uniforms), from_(from), chains_(std::min(kLanes, layout.chains - g * kLanes)) {
+    const Cut drawn(layout.draws, layout.chains);
+    const Cut kept(layout.kept, layout.chains);
     std::array<std::size_t, kLanes> start{};
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       const std::size_t k = g * kLanes + std::min(lane, chains_ - 1);  // lanes left over repeat the last chain
       burning_.part(lane, layout.draws + k * layout.burn_in, layout.draws + (k + 1) * layout.burn_in);
-      keeping_.part(lane, first_of_part(layout.draws, layout.chains, k),
-                    first_of_part(layout.draws, layout.chains, k + 1));
-      kept_[lane] = first_of_part(layout.kept, layout.chains, k);
-      passed_[lane] = keeping_.length(lane) - (first_of_part(layout.kept, layout.chains, k + 1) - kept_[lane]);
+      keeping_.part(lane, drawn.begin(k), drawn.begin(k + 1));
+      kept_[lane] = kept.begin(k);
+      passed_[lane] = keeping_.length(lane) - (kept.begin(k + 1) - kept_[lane]);
       start[lane] = !starts.empty() ? starts[k] : layout.burn_in > 0 ? burning_.begin[lane] : keeping_.begin[lane];
       if (lane < chains_) pass_over(lane, start[lane]);
     }
