@@ -393,7 +393,7 @@ class VectorImportanceFilter final : public Filter {
   }
 
   /// The first `count` lanes.
-  static MOTE_INLINE lanes::Mask<R, kBytes> leading_lanes(std::size_t count) {
+  static MOTE_INLINE lanes::Mask<R> leading_lanes(std::size_t count) {
     alignas(64) std::array<R, kLanes> lane{};
     for (std::size_t i = 0; i < kLanes; ++i) lane[i] = i < count ? R(1) : R(0);
     return V(0) < V::load(lane.data());
@@ -541,6 +541,10 @@ class VectorImportanceFilter final : public Filter {
     if (level_) return;
     std::copy(carried.begin(), carried.end(), log_weights_.begin());
     mass_ = 0;
+    // a step without observation goes on with these weights, in the house that it moves to
+    const double largest = *std::max_element(carried.begin(), carried.end());
+    for (std::size_t i = 0; i < carried.size(); ++i) next_weights_[i] = static_cast<R>(std::exp(carried[i] - largest));
+    for (std::size_t b = 0; b < sums_.blocks(); ++b) sums_.set(b, {0, 0, 0});
   }
 
   /// What a step without any weight left leaves behind.
