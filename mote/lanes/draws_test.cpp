@@ -33,7 +33,7 @@ TEST(VectorDraw, UniformNumbersAreTheScalarOnesBitForBit) {
 
 TEST(VectorDraw, NormalNumbersAreTheScalarOnesWithinTheTablesError) {
   expect_same_draws<float>([](auto& d) { return d.normal(); }, [](auto& d) { return d.normal(); }, 6e-6);
-  expect_same_draws<double>([](auto& d) { return d.normal(); }, [](auto& d) { return d.normal(); }, 2e-7);
+  expect_same_draws<double>([](auto& d) { return d.normal(); }, [](auto& d) { return d.normal(); }, 2e-9);
 }
 
 template <class R>

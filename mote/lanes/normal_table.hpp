@@ -11,12 +11,12 @@ namespace mote::lanes {
 ///   |z| = sum_j c_j(k) s^j,   s = v - 3/2,   p = v 2^k,  1 <= v < 2
 ///
 /// shape   float: degree 5, sixteen octaves, entry e mod 16 of the exponent e of p 2^32; error below 5e-6
-///         double: degree 7, sixteen octaves in two tables of eight, entry e mod 8 of the exponent e of p 2^64; below
-///         2e-7
+///         double: degree 10, sixteen octaves in two tables of eight, entry e mod 8 of the exponent e of p 2^64; below
+///         2e-9
 /// source  interpolation of base's quantile (AS 241) at Chebyshev points
 struct NormalTable {
   static constexpr std::size_t kDegreeFloat = 5;
-  static constexpr std::size_t kDegreeDouble = 7;
+  static constexpr std::size_t kDegreeDouble = 10;
   static constexpr int kOctaves = 16;  ///< below the last, draws are rare and made one by one
 
   alignas(64) std::array<std::array<float, 16>, kDegreeFloat + 1> narrow;

@@ -137,6 +137,10 @@ class BlockPass {
   void resize(std::size_t particles) {
     if (particles != sums_.particles()) sums_ = BlockSums(particles, sums_.dimensions());
   }
+  /// The weights that the next pass keeps are in units of 1, in every block.
+  void forget_scales() {
+    for (std::size_t b = 0; b < blocks(); ++b) sums_.set(b, {0, 0, 0});
+  }
   /// Adds up what the blocks of a pass have noted.
   void add_up() {
     totals_ = sums_.totals();

@@ -166,6 +166,10 @@ class VectorImportanceFilter final : public Filter {
     if (level_) return;
     std::copy(carried.begin(), carried.end(), log_weights_.begin());
     mass_ = 0;
+    // a step without observation goes on with these weights, in the house that it moves to
+    const double largest = *std::max_element(carried.begin(), carried.end());
+    for (std::size_t i = 0; i < carried.size(); ++i) next_weights_[i] = static_cast<R>(std::exp(carried[i] - largest));
+    pass_.forget_scales();
   }
 
   /// What a step without any weight left leaves behind.
