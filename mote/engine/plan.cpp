@@ -80,7 +80,7 @@ double bytes_needed(const Plan& plan, std::size_t dimensions) {
     return static_cast<double>(plan.particles + 2 * dimensions) * (static_cast<double>(dimensions) * 32 + 16);
   const double state = static_cast<double>(dimensions) * (plan.precision == Precision::kFloat ? 4 : 8);
   const auto n = static_cast<double>(plan.particles);
-  if (engine_of(plan) == Engine::kSimd) {
+  if (engine_of(plan) == Engine::kSimd && plan.filter == FilterKind::kSisr) {
     const double number = plan.precision == Precision::kFloat ? 4 : 8;
     // weights for any other scheme or exponent are formed in double, and ancestors listed
     const bool lists = plan.selection.scheme != &systematic_scheme() || plan.selection.exponent != 1;
@@ -92,12 +92,16 @@ double bytes_needed(const Plan& plan, std::size_t dimensions) {
   // `auto` may ask for as many as Q in each chain
   const double burn_in =
       static_cast<double>(plan.chain.chains) * (plan.chain.burn_in ? static_cast<double>(*plan.chain.burn_in) : draws);
+  if (engine_of(plan) == Engine::kSimd)
+    return n * state + (draws + burn_in) * (2 * state + (plan.precision == Precision::kFloat ? 16 : 32)) + 1e6;
   return n * (state + 28) + (draws + burn_in) * (state + 16);
 }
 
 void check(const Plan& plan, const std::string& where) {
-  require(plan.engine != Engine::kSimd || simd_has(plan), where, "--engine simd", "--filter sisr, the one it has",
-          "--filter " + std::string(name_of(plan.filter)), "Pass --engine reference, or leave it out.");
+  require(plan.engine != Engine::kSimd || simd_has(plan), where, "--engine simd",
+          "--filter sisr, imh with --proposal prior, or auxiliary; without --burn-in auto and lookahead",
+          fmt::format("--filter {} --proposal {}", name_of(plan.filter), plan.proposal),
+          "Pass --engine reference, or leave it out.");
   require(plan.particles >= 1 && plan.particles <= kMostParticles, where, "--particles",
           fmt::format("an integer from 1 to {}", kMostParticles), std::to_string(plan.particles),
           "Pass --particles 1000.");

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "mote/filter/options.hpp"
+#include "mote/model/model.hpp"
 
 namespace mote {
 
@@ -31,8 +32,14 @@ struct Plan {
   std::size_t threads = 1;  ///< results never depend on them
 };
 
-/// Whether the SIMD engine has the plan's filter.
-inline bool simd_has(const Plan& plan) { return plan.filter == FilterKind::kSisr; }
+/// Whether the SIMD engine has the plan's filter: SISR, and chains with a fixed burn-in, parents of equal weight and
+/// weights that need no sum over parents.
+inline bool simd_has(const Plan& plan) {
+  if (plan.filter == FilterKind::kSisr) return true;
+  const bool chains =
+      plan.filter == FilterKind::kAuxiliary || (plan.filter == FilterKind::kImh && plan.proposal == Prior::kName);
+  return chains && plan.chain.burn_in && plan.chain.parent_weights == ParentWeights::kUniform;
+}
 
 /// The engine that runs a plan.
 inline Engine engine_of(const Plan& plan) {

@@ -113,5 +113,24 @@ TEST(Plan, BytesCoverTheArraysThatAFilterHolds) {
   EXPECT_GE(bytes_needed(plan, 4), 1e6 * (4 * 8 + 4) + 1008000.0 * (4 * 8 + 16));
 }
 
+TEST(Plan, SimdHasSisrAndChainsThatNeedNoSums) {
+  Plan plan;
+  EXPECT_TRUE(simd_has(plan));
+  plan.filter = FilterKind::kDistributed;
+  EXPECT_FALSE(simd_has(plan));
+  EXPECT_EQ(engine_of(plan), Engine::kReference);
+  plan.filter = FilterKind::kImh;
+  EXPECT_TRUE(simd_has(plan));
+  EXPECT_EQ(engine_of(plan), Engine::kSimd);
+  plan.proposal = "observation";
+  EXPECT_FALSE(simd_has(plan)) << "mixture weights sum over all parents";
+  plan.filter = FilterKind::kAuxiliary;
+  EXPECT_TRUE(simd_has(plan));
+  plan.chain.parent_weights = ParentWeights::kLookahead;
+  EXPECT_FALSE(simd_has(plan));
+  plan.chain = {.burn_in = std::nullopt};
+  EXPECT_FALSE(simd_has(plan));
+}
+
 }  // namespace
 }  // namespace mote

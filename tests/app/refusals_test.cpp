@@ -180,7 +180,7 @@ const std::vector<Case> kUse{
     {"ImprovedSisr", kGood, kRun + "--improved", 2, "--improved: expected --filter imh or auxiliary"},
     {"LookaheadImh", kGood, kRun + "--filter imh --parent-weights lookahead", 2, "--parent-weights lookahead"},
     {"NoPipelineYet", kGood, kRun + "--engine pipeline", 2, "--engine pipeline: this version of mote does not have"},
-    {"SimdHasSisrOnly", kGood, kRun + "--engine simd --filter imh", 2, "--engine simd: expected --filter sisr"},
+    {"SimdHasNoGroups", kGood, kRun + "--engine simd --filter distributed", 2, "--engine simd: expected --filter sisr"},
     {"NoMpi", kGood, kRun + "--engine mpi", 2, "--engine mpi: this version of mote does not have"},
     {"NoCheckpointEveryYet", kGood, kRun + "--checkpoint-every 3", 2, "--checkpoint-every: this version"},
     {"EkfOfStudentsNoise", "t,bearing\n1,0.1\n", "mote run bearings --data d.csv --set dof=3 --filter ekf", 2,

@@ -9,6 +9,7 @@
 #include "mote/software/proposals.hpp"
 #include "mote/software/simd/importance.hpp"
 #include "mote/software/simd/isa.hpp"
+#include "mote/software/simd/metropolis.hpp"
 
 namespace mote {
 inline namespace HWY_NAMESPACE {
@@ -18,6 +19,15 @@ inline constexpr Isa kIsaHere = HWY_TARGET <= HWY_AVX3   ? Isa::kAvx512
                                 : HWY_TARGET <= HWY_AVX2 ? Isa::kAvx2
                                                          : Isa::kSse4;
 
+template <class R, class G, Model M>
+std::unique_ptr<Filter> vector_filter(const M& model, const Plan& plan, Estimates estimates) {
+  if (plan.filter == FilterKind::kSisr)
+    return std::make_unique<VectorImportanceFilter<M, R, G>>(model, plan.particles, plan.seed, plan.selection,
+                                                             plan.on_collapse, plan.threads, estimates);
+  return std::make_unique<VectorMetropolisFilter<M, R, G>>(model, plan.particles, plan.seed, plan.chain,
+                                                           plan.on_collapse, plan.threads, estimates);
+}
+
 /// A filter of the SIMD engine for a plan that has been checked and that simd_has().
 ///
 /// error   Refusal (kWrongUse) when the model has no proposal of that name, or its weights do not exist
@@ -25,11 +35,8 @@ template <Model M>
 std::unique_ptr<Filter> make_vector_filter(const M& model, const Plan& plan, const std::string& where,
                                            Estimates estimates = Estimates::kSpreads) {
   return with_proposal(model, plan, where, [&]<class G>(std::type_identity<G>) -> std::unique_ptr<Filter> {
-    const auto make = [&]<class R>(std::type_identity<R>) -> std::unique_ptr<Filter> {
-      return std::make_unique<VectorImportanceFilter<M, R, G>>(model, plan.particles, plan.seed, plan.selection,
-                                                               plan.on_collapse, plan.threads, estimates);
-    };
-    return plan.precision == Precision::kFloat ? make(std::type_identity<float>()) : make(std::type_identity<double>());
+    return plan.precision == Precision::kFloat ? vector_filter<float, G>(model, plan, estimates)
+                                               : vector_filter<double, G>(model, plan, estimates);
   });
 }
 

@@ -29,14 +29,6 @@ inline namespace HWY_NAMESPACE {
 template <Model M, class R, class G = Prior>
 class VectorMetropolisFilter final : public Filter {
  public:
-  /// Whether this filter runs a plan: chains with a fixed burn-in, parents of equal weight, and a weight that needs no
-  /// sum over parents.
-  static bool supports(const Plan& plan) {
-    const bool kind =
-        plan.filter == FilterKind::kAuxiliary || (plan.filter == FilterKind::kImh && std::is_same_v<G, Prior>);
-    return kind && plan.chain.burn_in && plan.chain.parent_weights == ParentWeights::kUniform;
-  }
-
   VectorMetropolisFilter(M model, std::size_t particles, std::uint64_t seed, const ChainOptions& options,
                          OnCollapse on_collapse, std::size_t threads, Estimates estimates = Estimates::kSpreads)
       : seed_(seed),

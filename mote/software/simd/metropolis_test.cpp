@@ -188,22 +188,6 @@ TEST(VectorMetropolis, ShowsWeightsThatAgreeWithItsMoments) {
   }
 }
 
-TEST(VectorMetropolis, SaysWhichPlansItSupports) {
-  Plan plan;
-  const auto prior = [&] { return VectorMetropolisFilter<Ungm<1>, float>::supports(plan); };
-  const auto guided = [&] { return VectorMetropolisFilter<Ungm<1>, float, UngmObservation>::supports(plan); };
-  EXPECT_FALSE(prior());
-  plan.filter = FilterKind::kImh;
-  EXPECT_TRUE(prior());
-  EXPECT_FALSE(guided()) << "its mixture weights sum over all parents";
-  plan.filter = FilterKind::kAuxiliary;
-  EXPECT_TRUE(prior() && guided());
-  plan.chain.parent_weights = ParentWeights::kLookahead;
-  EXPECT_FALSE(prior() || guided());
-  plan.chain = {.burn_in = std::nullopt};
-  EXPECT_FALSE(prior() || guided());
-}
-
 /// log p(y_1, ...) of a local level, by its Kalman filter.
 double exact_log_evidence(const LocalLevelParameters& p, const std::vector<Row<double>>& rows) {
   double mean = p.level0;
