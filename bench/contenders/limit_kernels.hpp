@@ -24,10 +24,10 @@
 namespace mote::contenders {
 namespace {
 
-constexpr std::size_t kLanes = 16;    // floats of a vector
-constexpr std::size_t kChunk = 1024;  // particles between two double positions
-constexpr double kTooMany = 65000;    // children of a chunk whose places do not fit into 16 bits
-constexpr double kLeastWeight = 1e-25;
+inline constexpr std::size_t kLanes = 16;    // floats of a vector
+inline constexpr std::size_t kChunk = 1024;  // particles between two double positions
+inline constexpr double kTooMany = 65000;    // children of a chunk whose places do not fit into 16 bits
+inline constexpr double kLeastWeight = 1e-25;
 
 #define MOTE_LIMIT_INLINE inline __attribute__((always_inline))
 
@@ -66,7 +66,7 @@ T larger(T a, T b) {
 // ---- normal numbers ----
 
 /// z >= 0 with Phi(-z) = p, for 0 < p <= 1/2: Acklam's rational approximation and two steps of Halley.
-double upper_quantile(double p) {
+inline double upper_quantile(double p) {
   double x = 0;
   if (p < 0.02425) {
     const double q = std::sqrt(-2 * std::log(p));
@@ -104,7 +104,7 @@ double upper_quantile(double p) {
   return -x;
 }
 
-constexpr int kDegree = 5;
+inline constexpr int kDegree = 5;
 
 /// The normal quantile as one polynomial for each binary exponent of p: coefficients by degree and exponent.
 struct NormalTable {
@@ -196,7 +196,7 @@ struct LoadedTable {
 };
 
 /// The lanes below the table's first piece, once in 65536 draws, one by one.
-__attribute__((noinline)) __m512 with_tails(__m512 normals, __m512i magnitudes, __mmask16 tails) {
+__attribute__((noinline)) inline __m512 with_tails(__m512 normals, __m512i magnitudes, __mmask16 tails) {
   alignas(64) float z[kLanes];
   alignas(64) std::uint32_t m[kLanes];
   _mm512_store_ps(z, normals);
@@ -459,7 +459,7 @@ class Limit final : public Contender {
   /// All weights underflowed: the same about the largest.
   __attribute__((noinline)) Totals weigh_again(double observation) {
     const auto log_weight = [&](std::size_t i) {
-      const double x = static_cast<double>(states_[i]);
+      const auto x = static_cast<double>(states_[i]);
       const double error = observation - x * x / 20;
       return -error * error / 2;
     };
@@ -500,7 +500,7 @@ class Limit final : public Contender {
       at = write_children(written, ready, at);
       written = larger(written, ready);
       if (at > kChunk) {
-        std::memmove(&survivors_[0], &survivors_[at], (listed - at) * sizeof(R));
+        std::memmove(survivors_.data(), &survivors_[at], (listed - at) * sizeof(R));
         listed -= at;
         at = 0;
       }

@@ -28,9 +28,9 @@ double widened(double bound) {
 
 // claim    the simd engine filters the growth model in less than these shares of the baseline's time
 // design   10 000 particles, 21 rounds in turns; CPU time; the gate takes the end of the interval that speaks for mote
-// risk     measured 0.04 and 0.09 on a Zen 4; the bounds are twice that, so that a noisy machine does not close them
-TEST(SpeedGate, GrowthModelInFloat) { EXPECT_LT(least_ratio("ungm-float"), widened(0.09)); }
-TEST(SpeedGate, GrowthModelInDouble) { EXPECT_LT(least_ratio("ungm-double"), widened(0.18)); }
+// risk     measured 0.063 and 0.12 on a Zen 4; the bounds are twice that, so that a noisy machine does not close them
+TEST(SpeedGate, GrowthModelInFloat) { EXPECT_LT(least_ratio("ungm-float"), widened(0.12)); }
+TEST(SpeedGate, GrowthModelInDouble) { EXPECT_LT(least_ratio("ungm-double"), widened(0.25)); }
 
 }  // namespace
 }  // namespace mote::testing

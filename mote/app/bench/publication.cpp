@@ -81,14 +81,17 @@ std::string absent_sentence(const Absent& absent) {
 }
 
 std::vector<std::string> notes_of(const Report& report) {
-  return {
-      fmt::format("ns: per particle and step, median of {} rounds in which all took turns, with quartiles; CPU time "
-                  "of the thread, for the task threads wall-clock.",
-                  report.repeats),
-      "x, of limit: ratios of times within a round, their median and 95 % interval by the bootstrap of rounds.",
-      "bytes: read and written at least per particle and step, derived from the passes over the particles; GB/s: "
-      "bytes by ns.",
-      "MB: memory held after a run.", "Every answer was checked before anything was timed; --json has the verdicts."};
+  std::vector<std::string> notes;
+  notes.push_back(
+      fmt::format("ns: per particle and step, median of {} rounds in which all took turns; CPU time of the thread, for "
+                  "the task threads wall-clock.",
+                  report.repeats));
+  notes.emplace_back(
+      "x, of limit: ratios of times within a round, their median and 95 % interval (bootstrap of rounds).");
+  notes.emplace_back("bytes: read and written at least per particle and step (derived); GB/s: bytes by ns.");
+  notes.emplace_back("MB: memory held after a run.");
+  notes.emplace_back("Every answer was checked before anything was timed; --json has the verdicts.");
+  return notes;
 }
 
 json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }

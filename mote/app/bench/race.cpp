@@ -35,7 +35,7 @@ void refuse_if(bool stop, const Rules& rules, const Task& task) {
 
 /// Judges, or says that a fault is mote's own: exit code 1.
 Verdict checked(const Task& task, const Entrant& entrant, const Rules& rules) {
-  const Verdict verdict = task.judge(entrant);
+  Verdict verdict = task.judge(entrant);
   if (verdict.right()) return verdict;
   throw Refusal(static_cast<ExitCode>(1),
                 {fmt::format("{}: {}: {}", rules.where, task.name, entrant.name), verdict.measure,
