@@ -102,7 +102,7 @@ void bind(CLI::App& program, Bound& bound) {
   bound.app->allow_extras();  // check_words() refuses them better
   for (const PositionalSpec& spec : bound.command.positionals) {
     CLI::Option* option = bound.app->add_option(spec.name, bound.values[spec.name], spec.meaning);
-    option->expected(1)->type_name("")->allow_extra_args(false);
+    option->expected(spec.many ? -1 : 1)->type_name("")->allow_extra_args(spec.many);
     if (spec.required) option->required();
     bound.options[spec.name] = option;
   }
@@ -252,7 +252,7 @@ int run_program(int count, char** words) {
   std::vector<std::unique_ptr<Bound>> commands;
   std::vector<std::string> names;
   for (Command command :
-       {models_command(), simulate_command(), run_command(), compare_command(), reproduce_command()}) {
+       {models_command(), simulate_command(), run_command(), compare_command(), bench_command(), reproduce_command()}) {
     commands.push_back(std::make_unique<Bound>());
     names.push_back(command.name);
     commands.back()->command = std::move(command);

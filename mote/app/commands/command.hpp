@@ -24,6 +24,7 @@ struct OptionSpec {
 struct PositionalSpec {
   std::string name, meaning;
   bool required = true;
+  bool many = false;  ///< may be given several times
 };
 
 /// The options given on one command line.
@@ -79,6 +80,7 @@ Command models_command();
 Command simulate_command();
 Command run_command();
 Command compare_command();
+Command bench_command();
 Command reproduce_command();
 
 /// Parses and runs: what main() returns.

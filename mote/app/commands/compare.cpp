@@ -1,16 +1,15 @@
 #include <algorithm>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "mote/app/commands/command.hpp"
+#include "mote/app/commands/particle_list.hpp"
 #include "mote/app/compare/publication.hpp"
 #include "mote/app/files/output.hpp"
 #include "mote/app/files/text.hpp"
 #include "mote/app/terminal/progress.hpp"
 #include "mote/app/terminal/signals.hpp"
-#include "mote/filter/particles.hpp"
 
 namespace mote {
 namespace {
@@ -20,24 +19,6 @@ using namespace compare;
 constexpr long long kMostSteps = 1'000'000;
 constexpr long long kMostRuns = 10'000;
 const std::string kLargeRun = "sisr -n 200000";
-
-/// "100,1000" in growing order, each once.
-std::vector<std::size_t> particles_from(const Arguments& arguments) {
-  std::vector<std::size_t> all;
-  std::istringstream stream(arguments.text("--particles"));
-  for (std::string part; std::getline(stream, part, ',');) {
-    const auto n = integer_in(std::string(trimmed(part)));
-    if (!n || *n < 1 || *n > static_cast<long long>(kMostParticles))
-      throw Refusal(
-          ExitCode::kWrongUse,
-          {arguments.where(), "--particles", fmt::format("integers from 1 to {}, separated by commas", kMostParticles),
-           "\"" + arguments.text("--particles") + "\"", "Pass --particles 100,1000,10000."});
-    all.push_back(static_cast<std::size_t>(*n));
-  }
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return all;
-}
 
 std::size_t count_from(const Arguments& arguments, const std::string& name) {
   return static_cast<std::size_t>(arguments.integer(name, 1, kMostRuns));
@@ -130,7 +111,7 @@ ExitCode run_compare(const Arguments& arguments) {
   design.where = arguments.where();
   design.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 0, 9223372036854775807LL));
   design.repeats = count_from(arguments, "--repeats");
-  design.particles = particles_from(arguments);
+  design.particles = particle_list_from(arguments);
   design.contenders = contenders_from(
       arguments.required("--filters", "filters with their options, separated by ;", "Pass --filters \"sisr; imh\"."),
       design.particles, design.where, notes);

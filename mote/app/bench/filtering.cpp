@@ -1,0 +1,163 @@
+// The tasks that filter a recording.
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "mote/app/bench/racers.hpp"
+#include "mote/app/bench/task_list.hpp"
+
+namespace mote::bench {
+namespace {
+
+constexpr Step kSteps = 100;
+constexpr Step kTrackingSteps =
+    30;  // the target's range is soon lost from a sensor at rest, and then few particles live
+constexpr std::uint64_t kRecording = 1;  // seed
+constexpr std::size_t kJudged = 1000;    // particles of a judged run
+constexpr std::uint64_t kRuns = 20;
+constexpr std::uint64_t kManyRuns = 100;  // where a run varies much
+constexpr std::size_t kShared = 100'000;  // particles of a judged run on several threads
+
+/// Root mean square of the difference.
+double rms_between(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(sum / static_cast<double>(a.size()));
+}
+
+// claim    the means are those of a bootstrap filter of 1000 particles
+// referee  the exact posterior mean on a grid
+// design   20 runs, seeds 1 to 20, on one recording: the mean RMSE of the reference engine over 1000 runs is kExpected,
+//          the standard deviation of one run kDeviation (`mote compare ungm --filters "sisr --engine reference"
+//          --recordings 1 --repeats 1000`)
+// risk     the band is 6 standard errors wide on either side; the twin with omega = 1.21 must be caught
+Verdict near_the_grid(const Entrant& entrant, const std::vector<double>& exact) {
+  constexpr double kExpected = 0.48;
+  constexpr double kDeviation = 0.1;
+  const double band = 6 * kDeviation / std::sqrt(static_cast<double>(kRuns));
+  double sum = 0;
+  for (std::uint64_t seed = 1; seed <= kRuns; ++seed) sum += rms_between(answer_of(entrant, kJudged, seed), exact);
+  return {fmt::format("RMSE to the exact mean over {} runs of {} particles", kRuns, kJudged), sum / kRuns,
+          kExpected - band, kExpected + band};
+}
+
+Task growth(const TaskEntry& entry, Precision precision, const contenders::Description& limit) {
+  const auto course = simulated_course("ungm", kSteps, kRecording);
+  Task task{entry.name, entry.meaning, Clock::kThread, course->steps(), {}, {}};
+  task.entrants = {filter_entrant("simd", course, plan_of(Engine::kSimd, precision)),
+                   contender_entrant(contenders::kBaseline, course), contender_entrant(limit, course),
+                   filter_entrant("reference", course, plan_of(Engine::kReference, precision)),
+                   contender_entrant(contenders::kNumpy, course)};
+  const auto solution = course->model->solver()->solve(course->scene.recording);
+  std::vector<double> exact;
+  for (const auto& mean : solution.value().means) exact.push_back(mean[0]);
+  task.judge = [exact](const Entrant& entrant) { return near_the_grid(entrant, exact); };
+  return task;
+}
+
+/// Greatest difference of two answers, in the units of the states; angles here stay away from +-pi.
+double greatest_between(const std::vector<double>& a, const std::vector<double>& b) {
+  double greatest = a.size() == b.size() ? 0 : kInfinity;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    const double apart = std::abs(a[i] - b[i]);
+    greatest = apart <= greatest ? greatest : apart;  // NaN counts
+  }
+  return greatest;
+}
+
+// claim    the means are those of the reference engine in double, which draws the same numbers
+// referee  the reference engine
+// design   1000 particles, seed 1, 10 steps. Vectors round otherwise, by parts in 1e-16, and their normal numbers are
+// good
+//          to 1e-8; a child gets another parent when a cumulative weight comes that near to a target, not in these
+//          steps
+// risk     none: the verdict is fixed; another seed differs by 0.01
+Verdict like_the_reference(const Entrant& entrant, const Entrant& reference, std::size_t components) {
+  constexpr std::size_t kCompared = 10;
+  auto own = answer_of(entrant, kJudged, 1);
+  auto expected = answer_of(reference, kJudged, 1);
+  own.resize(kCompared * components);
+  expected.resize(kCompared * components);
+  return {fmt::format("greatest difference of a mean to the reference engine's, {} particles, {} steps", kJudged,
+                      kCompared),
+          greatest_between(own, expected), 0, 1e-6};
+}
+
+/// Component 0 of an answer in its first 20 steps.
+std::vector<double> first_component(const std::vector<double>& answer, std::size_t components) {
+  std::vector<double> first;
+  for (std::size_t i = 0; i < 20 * components; i += components) first.push_back(answer[i]);
+  return first;
+}
+
+/// Mean over 100 runs of 1000 particles of the RMSE of component 0 to `expected`.
+double mean_rmse(const Entrant& entrant, const std::vector<double>& expected, std::size_t components) {
+  double sum = 0;
+  for (std::uint64_t seed = 1; seed <= kManyRuns; ++seed)
+    sum += rms_between(first_component(answer_of(entrant, kJudged, seed), components), expected);
+  return sum / kManyRuns;
+}
+
+// claim    in float, a filter errs as much as the reference engine in double. (Float's cumulative weights put a child
+// in
+//          a thousand to a neighbour, after which two runs are as good as independent.)
+// referee  a run of the reference engine with 200 000 particles
+// design   100 runs of 1000 particles, 20 steps: the RMSE of a run of `bearings` varies by 56 %, the ratio of two means
+// of
+//          100 by 8 %
+// risk     the band is 5 standard errors wide on either side
+Verdict errs_like(const Entrant& entrant, double usual, const std::vector<double>& expected, std::size_t components) {
+  return {fmt::format("RMSE to a large run, over that of the reference engine; {} runs of {} particles", kManyRuns,
+                      kJudged),
+          mean_rmse(entrant, expected, components) / usual, 0.6, 1.5};
+}
+
+Task tracking(const TaskEntry& entry, const std::string& model) {
+  const auto course = simulated_course(model, kTrackingSteps, kRecording);
+  const std::size_t components = course->model->states().size();
+  Task task{entry.name, entry.meaning, Clock::kThread, course->steps(), {}, {}};
+  for (const Engine engine : {Engine::kSimd, Engine::kReference})
+    for (const Precision precision : {Precision::kFloat, Precision::kDouble})
+      task.entrants.push_back(
+          filter_entrant(fmt::format("{}-{}", name_of(engine), precision == Precision::kFloat ? "float" : "double"),
+                         course, plan_of(engine, precision)));
+  const Entrant reference = task.entrants.back();
+  const auto expected = first_component(answer_of(reference, 200'000, kManyRuns + 1), components);
+  const double usual = mean_rmse(reference, expected, components);
+  task.judge = [=](const Entrant& entrant) {
+    return entrant.name.ends_with("double") ? like_the_reference(entrant, reference, components)
+                                            : errs_like(entrant, usual, expected, components);
+  };
+  return task;
+}
+
+}  // namespace
+
+Task growth_float_task(const TaskEntry& entry, std::size_t) {
+  return growth(entry, Precision::kFloat, contenders::kLimitFloat);
+}
+Task growth_double_task(const TaskEntry& entry, std::size_t) {
+  return growth(entry, Precision::kDouble, contenders::kLimitDouble);
+}
+Task bearings_task(const TaskEntry& entry, std::size_t) { return tracking(entry, "bearings"); }
+Task doa_task(const TaskEntry& entry, std::size_t) { return tracking(entry, "doa"); }
+
+// claim    results do not depend on the number of threads
+// referee  one thread
+// design   100 000 particles, so that every thread has blocks of its own; equal bit by bit
+Task threads_task(const TaskEntry& entry, std::size_t threads) {
+  const auto course = simulated_course("ungm", kSteps, kRecording);
+  Task task{entry.name, entry.meaning, Clock::kWall, course->steps(), {}, {}};
+  for (std::size_t count = 1; count <= threads; count = count < threads ? std::min(2 * count, threads) : count + 1)
+    task.entrants.push_back(
+        filter_entrant(fmt::format("simd x {}", count), course, plan_of(Engine::kSimd, Precision::kFloat, count)));
+  task.judge = [alone = task.entrants.front()](const Entrant& entrant) {
+    return Verdict{fmt::format("greatest difference of a mean to one thread's, {} particles", kShared),
+                   greatest_between(answer_of(entrant, kShared, 1), answer_of(alone, kShared, 1)), 0, 0};
+  };
+  return task;
+}
+
+}  // namespace mote::bench
