@@ -99,7 +99,7 @@ double bytes_needed(const Plan& plan, std::size_t dimensions) {
 
 void check(const Plan& plan, const std::string& where) {
   require(plan.engine != Engine::kSimd || simd_has(plan), where, "--engine simd",
-          "--filter sisr, imh with --proposal prior, or auxiliary; without --burn-in auto and lookahead",
+          "--filter sisr, or imh or auxiliary with --proposal prior, without --burn-in auto and lookahead",
           fmt::format("--filter {} --proposal {}", name_of(plan.filter), plan.proposal),
           "Pass --engine reference, or leave it out.");
   require(plan.particles >= 1 && plan.particles <= kMostParticles, where, "--particles",

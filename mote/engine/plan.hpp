@@ -32,13 +32,13 @@ struct Plan {
   std::size_t threads = 1;  ///< results never depend on them
 };
 
-/// Whether the SIMD engine has the plan's filter: SISR, and chains with a fixed burn-in, parents of equal weight and
-/// weights that need no sum over parents.
+/// Whether the SIMD engine has the plan's filter: SISR, and chains whose proposal is the prior, with a fixed burn-in and
+/// parents of equal weight.
 inline bool simd_has(const Plan& plan) {
   if (plan.filter == FilterKind::kSisr) return true;
-  const bool chains =
-      plan.filter == FilterKind::kAuxiliary || (plan.filter == FilterKind::kImh && plan.proposal == Prior::kName);
-  return chains && plan.chain.burn_in && plan.chain.parent_weights == ParentWeights::kUniform;
+  const bool chains = plan.filter == FilterKind::kAuxiliary || plan.filter == FilterKind::kImh;
+  return chains && plan.proposal == Prior::kName && plan.chain.burn_in &&
+         plan.chain.parent_weights == ParentWeights::kUniform;
 }
 
 /// The engine that runs a plan.

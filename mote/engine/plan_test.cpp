@@ -113,7 +113,7 @@ TEST(Plan, BytesCoverTheArraysThatAFilterHolds) {
   EXPECT_GE(bytes_needed(plan, 4), 1e6 * (4 * 8 + 4) + 1008000.0 * (4 * 8 + 16));
 }
 
-TEST(Plan, SimdHasSisrAndChainsThatNeedNoSums) {
+TEST(Plan, SimdHasSisrAndChainsThatProposeFromThePrior) {
   Plan plan;
   EXPECT_TRUE(simd_has(plan));
   plan.filter = FilterKind::kDistributed;
@@ -125,6 +125,8 @@ TEST(Plan, SimdHasSisrAndChainsThatNeedNoSums) {
   plan.proposal = "observation";
   EXPECT_FALSE(simd_has(plan)) << "mixture weights sum over all parents";
   plan.filter = FilterKind::kAuxiliary;
+  EXPECT_FALSE(simd_has(plan));
+  plan.proposal = "prior";
   EXPECT_TRUE(simd_has(plan));
   plan.chain.parent_weights = ParentWeights::kLookahead;
   EXPECT_FALSE(simd_has(plan));

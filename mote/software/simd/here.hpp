@@ -21,10 +21,11 @@ inline constexpr Isa kIsaHere = HWY_TARGET <= HWY_AVX3   ? Isa::kAvx512
 
 template <class R, class G, Model M>
 std::unique_ptr<Filter> vector_filter(const M& model, const Plan& plan, Estimates estimates) {
-  if (plan.filter == FilterKind::kSisr)
-    return std::make_unique<VectorImportanceFilter<M, R, G>>(model, plan.particles, plan.seed, plan.selection,
-                                                             plan.on_collapse, plan.threads, estimates);
-  return std::make_unique<VectorMetropolisFilter<M, R, G>>(model, plan.particles, plan.seed, plan.chain,
+  if constexpr (std::is_same_v<G, Prior>)
+    if (plan.filter != FilterKind::kSisr)
+      return std::make_unique<VectorMetropolisFilter<M, R>>(model, plan.particles, plan.seed, plan.chain,
+                                                            plan.on_collapse, plan.threads, estimates);
+  return std::make_unique<VectorImportanceFilter<M, R, G>>(model, plan.particles, plan.seed, plan.selection,
                                                            plan.on_collapse, plan.threads, estimates);
 }
 
