@@ -45,8 +45,10 @@ TEST(UniformFromBits, IsOpenAndSymmetric) {
 }
 
 TEST(IndexFromBits, CoversItsRange) {
-  EXPECT_EQ(index_from_bits(0, 7), 0U);
-  EXPECT_EQ(index_from_bits(~std::uint64_t{0}, 7), 6U);
+  EXPECT_EQ(index_from_bits(std::uint64_t{0}, std::uint64_t{7}), 0U);
+  EXPECT_EQ(index_from_bits(~std::uint64_t{0}, std::uint64_t{7}), 6U);
+  EXPECT_EQ(index_from_bits(std::uint32_t{0}, std::uint32_t{7}), 0U);
+  EXPECT_EQ(index_from_bits(~std::uint32_t{0}, std::uint32_t{7}), 6U);
 }
 
 }  // namespace
