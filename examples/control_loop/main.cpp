@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
   mote::Plan plan;
   plan.particles = 10000;
   plan.precision = mote::Precision::kFloat;
-  mote::Stream stream(mote::make_vector_filter(model, plan, "control_loop"), model.states());
+  mote::Stream stream(mote::make_vector_filter(model, plan, "control_loop"), model.states(), model.columns());
 
   // the plant, drawn from the model itself; a real one would read its sensor here
   auto block = mote::Draws{7, 0}.block(mote::Purpose::kTruth);

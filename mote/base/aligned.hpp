@@ -15,7 +15,7 @@ void free_aligned(void* memory, std::size_t bytes) noexcept;
 /// The allocator of AlignedVector.
 template <class T>
 struct AlignedAllocator {
-  using value_type = T;
+  using value_type = T;  // NOLINT(readability-identifier-naming): as the standard names it
 
   AlignedAllocator() = default;
   template <class U>

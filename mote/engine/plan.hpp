@@ -32,8 +32,8 @@ struct Plan {
   std::size_t threads = 1;  ///< results never depend on them
 };
 
-/// Whether the SIMD engine has the plan's filter: SISR, and chains whose proposal is the prior, with a fixed burn-in and
-/// parents of equal weight.
+/// Whether the SIMD engine has the plan's filter: SISR, and chains whose proposal is the prior, with a fixed burn-in
+/// and parents of equal weight.
 inline bool simd_has(const Plan& plan) {
   if (plan.filter == FilterKind::kSisr) return true;
   const bool chains = plan.filter == FilterKind::kAuxiliary || plan.filter == FilterKind::kImh;

@@ -28,16 +28,18 @@ std::chrono::nanoseconds Latency::quantile(double level) const {
   return largest_;
 }
 
-Stream::Stream(std::unique_ptr<Filter> filter, std::span<const Quantity> states)
+Stream::Stream(std::unique_ptr<Filter> filter, std::span<const Quantity> states, std::span<const Column> columns)
     : filter_(std::move(filter)), moments_(states.size()) {
+  for (const Column& column : columns) observations_ += column.input ? 0 : 1;
   for (const Quantity& state : states) angles_.push_back(state.angle);
   estimate_.states = moments_;
 }
 
 const StreamEstimate& Stream::step(Rows<double> rows) {
   const auto start = std::chrono::steady_clock::now();
-  const bool observed = std::any_of(rows.begin(), rows.end(), [](const Row<double>& row) {
-    return std::find(row.present.begin(), row.present.end(), true) != row.present.end();
+  const bool observed = std::any_of(rows.begin(), rows.end(), [this](const Row<double>& row) {
+    const auto last = row.present.begin() + static_cast<std::ptrdiff_t>(observations_);
+    return std::find(row.present.begin(), last, true) != last;
   });
   const Step t = ++estimate_.t;
   estimate_.report = observed ? filter_->update(t, rows) : filter_->predict(t);

@@ -40,15 +40,15 @@ struct StreamEstimate {
 
 /// A filter in motion, one step a call.
 ///
-///   Stream stream(make_vector_filter(model, plan, "loop"), model.states());
+///   Stream stream(make_vector_filter(model, plan, "loop"), model.states(), model.columns());
 ///   const StreamEstimate& now = stream.step(rows);   // now.states[0].mean, now.states[0].sd
 ///
-/// shape   rows of this step's measurements; none, or none seen: the step is predicted only
+/// shape   rows of this step's measurements; none, or no observation seen: the step is predicted only
 /// error   none; a collapsed step is reported
 /// cost    that of the filter; allocates nothing of its own
 class Stream {
  public:
-  Stream(std::unique_ptr<Filter> filter, std::span<const Quantity> states);
+  Stream(std::unique_ptr<Filter> filter, std::span<const Quantity> states, std::span<const Column> columns);
 
   const StreamEstimate& step(Rows<double> rows);
   /// Times of the steps so far, from the call to the estimates and the selection that prepares the next step.
@@ -57,6 +57,7 @@ class Stream {
  private:
   std::unique_ptr<Filter> filter_;
   std::vector<bool> angles_;
+  std::size_t observations_ = 0;  // columns, before the inputs
   std::vector<Moments> moments_;
   StreamEstimate estimate_;
   Latency latency_;

@@ -29,7 +29,7 @@ TEST(Stream, GivesTheEstimatesOfARun) {
   request.states = model.states();
   const auto filter = make_sisr(model, 500, 1);
   const auto rows = run(*filter, Plan{}, recording, request).rows;
-  Stream stream(make_sisr(model, 500, 1), model.states());
+  Stream stream(make_sisr(model, 500, 1), model.states(), model.columns());
   std::size_t k = 0;
   for (Step t = 1; t <= 10; ++t) {
     std::vector<Row<double>> now{Row<double>::of({1.0 + t})};

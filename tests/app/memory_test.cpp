@@ -64,6 +64,7 @@ TEST(BytesNeeded, CoverWhatARunTakes) {
     };
     Plan plan;
     plan.particles = many;
+    plan.selection.scheme = &scheme;
     EXPECT_LE(peak(many) - peak(few), bytes_needed(plan, 1) + 1e6) << scheme.name;
   }
 }

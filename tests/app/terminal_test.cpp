@@ -59,8 +59,9 @@ class Terminal : public ::testing::Test {
     scratch_.write("d.csv", data);
   }
   std::string shown(int columns, const char* terminal = "xterm") {
-    return shown_on_terminal(scratch_, {"run", "local-level", "--data", "d.csv", "-n", "5000", "--out", "-"}, columns,
-                             terminal, &code_);
+    return shown_on_terminal(
+        scratch_, {"run", "local-level", "--data", "d.csv", "-n", "5000", "--engine", "reference", "--out", "-"},
+        columns, terminal, &code_);
   }
 
   Scratch scratch_;

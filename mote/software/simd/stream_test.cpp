@@ -39,7 +39,7 @@ std::size_t allocations_of(const SelectionOptions& selection) {
   const Bearings model;
   Stream stream(
       std::make_unique<VectorImportanceFilter<Bearings, float>>(model, 10000, 1, selection, OnCollapse::kKeep, 1),
-      model.states());
+      model.states(), model.columns());
   auto row = blank_row(model);
   row.values[0] = 0.8;
   std::size_t before = 0;
