@@ -25,7 +25,9 @@ function(mote_simd target)
     foreach(source IN LISTS ARG_SOURCES) # options belong to a source: each set has copies of its own
       cmake_path(GET source STEM stem)
       set(copy ${CMAKE_CURRENT_BINARY_DIR}/simd/${name}/${stem}_${name}.cpp)
-      file(CONFIGURE OUTPUT ${copy} CONTENT "#include \"${source}\"\n" @ONLY)
+      cmake_path(GET copy PARENT_PATH folder)
+      file(RELATIVE_PATH path ${folder} ${source}) # the same text in every clone, so that a compiler cache knows it
+      file(CONFIGURE OUTPUT ${copy} CONTENT "#include \"${path}\"\n" @ONLY)
       list(APPEND copies ${copy})
     endforeach()
     set_source_files_properties(${copies} PROPERTIES COMPILE_OPTIONS "${MOTE_ISA_${isa}};${MOTE_VECTOR_OPTIONS}")
