@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <set>
-#include <thread>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -8,6 +7,7 @@
 #include "mote/app/bench/publication.hpp"
 #include "mote/app/commands/command.hpp"
 #include "mote/app/commands/particle_list.hpp"
+#include "mote/app/commands/plan_options.hpp"
 #include "mote/app/files/output.hpp"
 #include "mote/app/terminal/progress.hpp"
 #include "mote/app/terminal/signals.hpp"
@@ -38,7 +38,7 @@ std::vector<bench::TaskEntry> tasks_from(const Arguments& arguments) {
 }
 
 std::size_t threads_from(const Arguments& arguments) {
-  if (!arguments.given("--threads")) return std::max(1U, std::thread::hardware_concurrency());
+  if (!arguments.given("--threads")) return cores();
   return static_cast<std::size_t>(arguments.integer("--threads", 1, 1024));
 }
 

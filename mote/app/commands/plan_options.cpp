@@ -21,12 +21,6 @@ std::vector<std::string> scheme_names() {
   return names;
 }
 
-/// Cores that this process may use.
-std::size_t cores() {
-  cpu_set_t set;
-  return sched_getaffinity(0, sizeof set, &set) == 0 ? static_cast<std::size_t>(CPU_COUNT(&set)) : 1;
-}
-
 void refuse_what_is_not_there(const Arguments& arguments) {
   for (const std::string name : {"--checkpoint", "--checkpoint-every", "--budget", "--proposers", "--weighers"})
     if (arguments.given(name))
@@ -70,6 +64,11 @@ ChainOptions chain_from(const Arguments& arguments, FilterKind filter) {
 }
 
 }  // namespace
+
+std::size_t cores() {
+  cpu_set_t set;
+  return sched_getaffinity(0, sizeof set, &set) == 0 ? static_cast<std::size_t>(CPU_COUNT(&set)) : 1;
+}
 
 std::vector<OptionSpec> plan_options() {
   const std::string filter = "Filter";
