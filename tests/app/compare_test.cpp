@@ -52,19 +52,41 @@ TEST(Compare, WritesTheSameNumbersEverywhereAndEveryTime) {
   ASSERT_EQ(rows.size(), 7U);
   const auto columns = [](const std::string& row) { return std::count(row.begin(), row.end(), ','); };
   for (const std::string& row : rows) EXPECT_EQ(columns(row), columns(rows[0]));
-  EXPECT_TRUE(rows[3].starts_with("\"sisr (2)\",20,")) << rows[3];
+  EXPECT_TRUE(rows[3].starts_with("local-level,\"sisr (2)\",20,")) << rows[3];
   EXPECT_EQ(json["results"][2]["ratio"], 1.0);
   EXPECT_EQ(json["results"][2]["ratio_interval"], Json({1.0, 1.0}));
   EXPECT_EQ(json["reference"]["log_evidence"].size(), 2U);
   std::vector<int> seeds;
   for (const Json& run : json["results"][5]["runs"]) seeds.push_back(run["seed"]);
   EXPECT_EQ(seeds, (std::vector<int>{1, 2, 3, 4, 5, 6}));
-  EXPECT_NE(scratch.read("r.html").find("Error against wall-clock"), std::string::npos);
+  EXPECT_NE(scratch.read("r.html").find("local-level: error against wall-clock"), std::string::npos);
   ASSERT_EQ(scratch.shell(line).code, 0);
   Json again = Json::parse(scratch.read("r.json"));
   for (std::size_t i = 0; i < 6; ++i)
     for (const std::string number : {"mse_median", "mse_mean_interval", "ratio", "nees", "log_evidence_sd"})
       EXPECT_EQ(again["results"][i][number], json["results"][i][number]);
+}
+
+TEST(Compare, TakesSeveralModels) {
+  const Scratch scratch;
+  const std::string words =
+      " --steps 10 --recordings 1 --repeats 2 -n 50 --filters 'sisr; imh' --reference 'sisr -n 500'";
+  const Ended both = scratch.shell("mote compare ungm,bearings" + words + " --out t.csv --json r.json --report r.html");
+  ASSERT_EQ(both.code, 0) << both.err;
+  const auto rows = lines_of(scratch.read("t.csv"));
+  ASSERT_EQ(rows.size(), 5U);
+  EXPECT_TRUE(rows[1].starts_with("ungm,\"sisr\",50,")) << rows[1];
+  EXPECT_TRUE(rows[4].starts_with("bearings,\"imh\",50,")) << rows[4];
+  const Json json = Json::parse(scratch.read("r.json"));
+  ASSERT_EQ(json.size(), 2U);
+  for (const std::string title : {"ungm: error against wall-clock", "bearings: error against wall-clock"})
+    EXPECT_NE(scratch.read("r.html").find(title), std::string::npos);
+  ASSERT_EQ(scratch.shell("mote compare bearings" + words + " --json alone.json").code, 0);
+  const Json alone = Json::parse(scratch.read("alone.json"));
+  EXPECT_EQ(json[1]["results"][1]["mse_median"], alone["results"][1]["mse_median"]);
+  const Ended unknown = scratch.shell("mote compare ungm,bearing" + words);
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(unknown.err.find("Did you mean bearings"), std::string::npos) << unknown.err;
 }
 
 // A run of the comparison is the run that mote run makes of the same recording with the same seed.

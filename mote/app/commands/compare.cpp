@@ -100,14 +100,29 @@ void protect_inputs(OutputSet& outputs, const Arguments& arguments) {
     if (setting.starts_with("file=")) outputs.protect(setting.substr(5));
 }
 
-ExitCode run_compare(const Arguments& arguments) {
-  const std::atomic<bool>& stop = stop_flag();
-  std::vector<std::string> notes;
+std::vector<std::string> names_in(const std::string& list) {
+  std::vector<std::string> names(1);
+  for (const char c : list)
+    if (c == ',')
+      names.emplace_back();
+    else
+      names.back() += c;
+  return names;
+}
+
+/// A comparison on one model, checked, ready to run; and the reference that was asked for as a plan.
+struct Prepared {
   Outcome outcome;
+  std::optional<Plan> reference_run;
+};
+
+Prepared prepare(const Arguments& arguments, const std::string& model, std::vector<std::string>& notes) {
+  Prepared prepared;
+  Outcome& outcome = prepared.outcome;
   outcome.command = arguments.command_line();
   outcome.lost_beyond = lost_beyond_from(arguments);
   Design& design = outcome.design;
-  design.model = arguments.text("MODEL");
+  design.model = model;
   design.where = arguments.where();
   design.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 0, 9223372036854775807LL));
   design.repeats = count_from(arguments, "--repeats");
@@ -116,31 +131,48 @@ ExitCode run_compare(const Arguments& arguments) {
       arguments.required("--filters", "filters with their options, separated by ;", "Pass --filters \"sisr; imh\"."),
       design.particles, design.where, notes);
   const std::string reference = arguments.text("--reference");
-  std::optional<Plan> reference_run;
   if (reference != "auto" && reference != "exact" && reference != "none")
-    reference_run = reference_plan(reference, design.where, notes);
+    prepared.reference_run = reference_plan(reference, design.where, notes);
   find_scenes(arguments, design, outcome, notes);
   design.target = target_of(arguments.text("--state"), design.catalogue_model->states(), design.where);
   check_measurable(design, reference, outcome.lost_beyond);
   check_contenders(design);
+  return prepared;
+}
+
+void compare_filters(const Arguments& arguments, Prepared& prepared, const std::atomic<bool>& stop) {
+  Outcome& outcome = prepared.outcome;
+  Design& design = outcome.design;
+  design.reference = find_reference(design, arguments.text("--reference"), prepared.reference_run, stop);
+  Progress progress("particles");
+  outcome.runs = run_study(
+      design, [&](std::size_t done, std::size_t all) { progress.update(done, all); }, stop);
+  outcome.figures = figures_of(design, outcome.runs, outcome.lost_beyond);
+}
+
+ExitCode run_compare(const Arguments& arguments) {
+  std::vector<std::string> notes;
+  std::vector<Prepared> all;
+  for (const std::string& model : names_in(arguments.text("MODEL"))) {
+    notes.clear();  // each model's contenders give the same ones
+    all.push_back(prepare(arguments, model, notes));
+  }
   OutputSet outputs;
   protect_inputs(outputs, arguments);
   Output* csv = outputs.open(arguments.text("--out"));
   Output* json = outputs.open(arguments.text("--json"));
   Output* page = outputs.open(arguments.text("--report"));
   for (const std::string& note : notes) fmt::print(stderr, "{}\n", printable(note));
-  design.reference = find_reference(design, reference, reference_run, stop);
-  {
-    Progress progress("particles");
-    outcome.runs = run_study(
-        design, [&](std::size_t done, std::size_t all) { progress.update(done, all); }, stop);
+  std::vector<Outcome> outcomes;
+  for (Prepared& prepared : all) {
+    compare_filters(arguments, prepared, stop_flag());
+    outcomes.push_back(std::move(prepared.outcome));
   }
-  outcome.figures = figures_of(design, outcome.runs, outcome.lost_beyond);
-  if (csv != nullptr) csv->write(comparison_csv(outcome));
-  if (json != nullptr) json->write(comparison_json(outcome).dump(2) + "\n");
-  if (page != nullptr) page->write(report::html(comparison_page(outcome)));
+  if (csv != nullptr) csv->write(comparison_csv(outcomes));
+  if (json != nullptr) json->write(comparison_json(outcomes).dump(2) + "\n");
+  if (page != nullptr) page->write(report::html(comparison_page(outcomes)));
   outputs.commit();
-  if (!outputs.on_standard_output()) fmt::print("{}", comparison_table(outcome));
+  if (!outputs.on_standard_output()) fmt::print("{}", comparison_table(outcomes));
   return ExitCode::kDone;
 }
 
@@ -150,7 +182,7 @@ Command compare_command() {
   return {
       "compare",
       "Compare filters on the same recordings",
-      {{"MODEL", "a model of the catalogue (see mote models)"}},
+      {{"MODEL", "a model of the catalogue (see mote models), or several separated by commas"}},
       {{"--data", "FILE", "", "one recording as CSV, instead of simulated ones", "Data"},
        {"--truth", "FILE", "", "its true states as CSV [none]", "Data"},
        {"--steps", "T", "100", "steps of a simulated recording, from 1 to 1000000", "Data"},

@@ -183,7 +183,7 @@ json design_json(const Outcome& outcome) {
 
 report::Chart chart_of(const Outcome& outcome) {
   const Design& d = outcome.design;
-  report::Chart chart{.title = "Error against wall-clock",
+  report::Chart chart{.title = fmt::format("{}: error against wall-clock", d.model),
                       .x_label = "seconds a run",
                       .y_label = error_name(outcome) + (d.target.unit.empty() ? "" : " (" + d.target.unit + "²)"),
                       .log_x = true,
@@ -205,9 +205,7 @@ std::string field(const std::string& text) {
   return "\"" + quoted + "\"";
 }
 
-}  // namespace
-
-std::string comparison_table(const Outcome& outcome) {
+std::string table_of(const Outcome& outcome) {
   const auto cells = cells_of(outcome);
   std::vector<std::size_t> widths(cells.front().size());
   for (const auto& row : cells)
@@ -222,28 +220,25 @@ std::string comparison_table(const Outcome& outcome) {
   return text;
 }
 
-std::string comparison_csv(const Outcome& outcome) {
-  std::string csv =
-      "filter,particles,rmse_truth,mse_median,mse_median_low,mse_median_high,mse_mean,mse_mean_low,mse_mean_high,"
-      "ratio,ratio_low,ratio_high,nees,nees_low,nees_high,coverage,collapsed,lost,log_evidence,log_evidence_sd,seconds,"
-      "ns_per_particle_step\n";
+std::string csv_rows(const Outcome& outcome) {
+  std::string csv;
   const auto three = [](const Estimate& e) {
     return fmt::format("{},{},{}", exact(e.value), exact(e.interval.low), exact(e.interval.high));
   };
   for (std::size_t c = 0; c < outcome.figures.size(); ++c)
     for (std::size_t s = 0; s < outcome.figures[c].size(); ++s) {
       const Figures& f = outcome.figures[c][s];
-      csv +=
-          fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", field(outcome.design.contenders[c].name),
-                      outcome.design.particles[s], exact(f.rmse_truth), three(f.median_mse), three(f.mean_mse),
-                      f.ratio ? three(*f.ratio) : ",,", exact(f.nees), exact(f.nees_band.low), exact(f.nees_band.high),
-                      exact(f.coverage), f.collapsed, f.lost ? std::to_string(*f.lost) : "", exact(f.log_evidence),
-                      exact(f.log_evidence_sd), exact(f.seconds), exact(f.ns_per_particle_step));
+      csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", outcome.design.model,
+                         field(outcome.design.contenders[c].name), outcome.design.particles[s], exact(f.rmse_truth),
+                         three(f.median_mse), three(f.mean_mse), f.ratio ? three(*f.ratio) : ",,", exact(f.nees),
+                         exact(f.nees_band.low), exact(f.nees_band.high), exact(f.coverage), f.collapsed,
+                         f.lost ? std::to_string(*f.lost) : "", exact(f.log_evidence), exact(f.log_evidence_sd),
+                         exact(f.seconds), exact(f.ns_per_particle_step));
     }
   return csv;
 }
 
-json comparison_json(const Outcome& outcome) {
+json results_json(const Outcome& outcome) {
   json out = design_json(outcome);
   out["results"] = json::array();
   for (std::size_t c = 0; c < outcome.figures.size(); ++c)
@@ -258,22 +253,62 @@ json comparison_json(const Outcome& outcome) {
   return out;
 }
 
-report::Page comparison_page(const Outcome& outcome) {
+std::string models_in(std::span<const Outcome> outcomes) {
+  std::string names = outcomes.front().design.model;
+  for (const Outcome& outcome : outcomes.subspan(1)) names += ", " + outcome.design.model;
+  return names;
+}
+
+/// The facts, figure, table and notes of one model, each with its name.
+void add_to(report::Page& page, const Outcome& outcome) {
   const Design& d = outcome.design;
-  report::Page page{.title = fmt::format("{}: filters compared", d.model), .summary = headline(outcome) + "."};
-  page.command = outcome.command;
-  page.facts = {{"Model", d.model},
-                {"Data", outcome.source},
-                {"Repeats", std::to_string(d.repeats)},
-                {"Error of", d.target.name},
-                {"Reference", d.reference.name.empty() ? "none; errors are to the truth" : d.reference.name}};
-  page.charts = {chart_of(outcome)};
+  page.facts.insert(page.facts.end(),
+                    {{"Model", d.model},
+                     {"Data", outcome.source},
+                     {"Repeats", std::to_string(d.repeats)},
+                     {"Error of", d.target.name},
+                     {"Reference", d.reference.name.empty() ? "none; errors are to the truth" : d.reference.name}});
+  page.charts.push_back(chart_of(outcome));
   auto cells = cells_of(outcome);
   for (auto& row : cells)
     for (std::string& cell : row) cell = unbroken(std::move(cell));
-  page.tables = {{.title = "Filters by number of particles", .columns = cells.front()}};
-  page.tables.front().rows.assign(cells.begin() + 1, cells.end());
-  page.notes = notes_of(outcome);
+  report::Table& table = page.tables.emplace_back();
+  table.title = fmt::format("{}: filters by number of particles", d.model);
+  table.columns = cells.front();
+  table.rows.assign(cells.begin() + 1, cells.end());
+  for (const std::string& note : notes_of(outcome))
+    if (std::find(page.notes.begin(), page.notes.end(), note) == page.notes.end()) page.notes.push_back(note);
+}
+
+}  // namespace
+
+std::string comparison_table(std::span<const Outcome> outcomes) {
+  std::string text;
+  for (const Outcome& outcome : outcomes) text += (text.empty() ? "" : "\n") + table_of(outcome);
+  return text;
+}
+
+std::string comparison_csv(std::span<const Outcome> outcomes) {
+  std::string csv =
+      "model,filter,particles,rmse_truth,mse_median,mse_median_low,mse_median_high,mse_mean,mse_mean_low,mse_mean_high,"
+      "ratio,ratio_low,ratio_high,nees,nees_low,nees_high,coverage,collapsed,lost,log_evidence,log_evidence_sd,seconds,"
+      "ns_per_particle_step\n";
+  for (const Outcome& outcome : outcomes) csv += csv_rows(outcome);
+  return csv;
+}
+
+json comparison_json(std::span<const Outcome> outcomes) {
+  if (outcomes.size() == 1) return results_json(outcomes.front());
+  json all = json::array();
+  for (const Outcome& outcome : outcomes) all.push_back(results_json(outcome));
+  return all;
+}
+
+report::Page comparison_page(std::span<const Outcome> outcomes) {
+  report::Page page{.title = models_in(outcomes) + ": filters compared"};
+  for (const Outcome& outcome : outcomes) page.summary += (page.summary.empty() ? "" : " ") + headline(outcome) + ".";
+  page.command = outcomes.front().command;
+  for (const Outcome& outcome : outcomes) add_to(page, outcome);
   return page;
 }
 
