@@ -6,7 +6,7 @@
 
 namespace mote {
 
-/// Bytes on a 64-byte boundary; from 4 MB on, on a 2 MB boundary and offered to the kernel for huge pages.
+/// Bytes on a 64-byte boundary; from 2 MB on, whole huge pages of 2 MB, if the kernel has them to give.
 ///
 /// error   std::bad_alloc
 void* allocate_aligned(std::size_t bytes);

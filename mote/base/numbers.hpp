@@ -35,6 +35,17 @@ S select(bool condition, S a, S b) {
   return condition ? a : b;
 }
 
+template <class S>
+struct SinCos {
+  S sine, cosine;
+};
+
+/// Sine and cosine of one angle; vectors share the work that both do.
+template <class S>
+SinCos<S> sin_cos(const S& angle) {
+  return {sin(angle), cos(angle)};
+}
+
 /// The angle in [-pi, pi) that differs from `angle` by whole turns.
 ///
 ///   wrap(a) = a - 2 pi floor(a / (2 pi) + 1/2)

@@ -36,12 +36,12 @@ class Generators {
   MOTE_INLINE Words next() {
     const Words word = plus(rotated<23>(plus(s_[0], s_[3])), s_[0]);
     const Words t = Words::map([](auto x) { return hn::ShiftLeft<17>(x); }, s_[1]);
-    s_[2] = mixed_in(s_[2], s_[0]);
-    s_[3] = mixed_in(s_[3], s_[1]);
-    s_[1] = mixed_in(s_[1], s_[2]);
-    s_[0] = mixed_in(s_[0], s_[3]);
-    s_[2] = mixed_in(s_[2], t);
-    s_[3] = rotated<45>(s_[3]);
+    const Words fourth = mixed_in(s_[3], s_[1]);
+    const Words second = mixed_in(s_[1], s_[2], s_[0]);
+    s_[2] = mixed_in(t, s_[2], s_[0]);
+    s_[0] = mixed_in(s_[0], fourth);
+    s_[1] = second;
+    s_[3] = rotated<45>(fourth);
     return word;
   }
 
@@ -54,6 +54,9 @@ class Generators {
   }
   static MOTE_INLINE Words mixed_in(const Words& a, const Words& b) {
     return Words::map([](auto x, auto y) { return hn::Xor(x, y); }, a, b);
+  }
+  static MOTE_INLINE Words mixed_in(const Words& a, const Words& b, const Words& c) {
+    return Words::map([](auto x, auto y, auto z) { return hn::Xor3(x, y, z); }, a, b, c);
   }
   template <int kLeft>
   static MOTE_INLINE Words rotated(const Words& a) {
@@ -111,7 +114,7 @@ class NormalPolynomials<float> {
   MOTE_INLINE Vector<float> operator()(const Registers<std::uint32_t>& u) const {
     using Tag = Registers<std::uint32_t>::Tag;
     const auto v = Registers<std::uint32_t>::map(
-        [](auto x) { return hn::Or(hn::And(x, hn::Set(Tag{}, 0x7FFFFFU)), hn::Set(Tag{}, 0x3F800000U)); }, u);
+        [](auto x) { return hn::OrAnd(hn::Set(Tag{}, 0x3F800000U), x, hn::Set(Tag{}, 0x7FFFFFU)); }, u);
     const Vector<float> s = Vector<float>(v.template as<float>()) - Vector<float>(1.5F);
     const auto exponent = Registers<std::uint32_t>::map([](auto x) { return hn::ShiftRight<23>(x); }, u);
     return horner<NormalTable::kDegreeFloat>(s, [&](std::size_t j) { return entry(j, exponent); });
@@ -153,9 +156,7 @@ class NormalPolynomials<double> {
   static MOTE_INLINE Vector<double> from(const Part& part, const Registers<std::uint64_t>& u) {
     using Tag = Registers<std::uint64_t>::Tag;
     const auto v = Registers<std::uint64_t>::map(
-        [](auto x) {
-          return hn::Or(hn::And(x, hn::Set(Tag{}, 0xFFFFFFFFFFFFFULL)), hn::Set(Tag{}, 0x3FF0000000000000ULL));
-        },
+        [](auto x) { return hn::OrAnd(hn::Set(Tag{}, 0x3FF0000000000000ULL), x, hn::Set(Tag{}, 0xFFFFFFFFFFFFFULL)); },
         u);
     const Vector<double> s = Vector<double>(v.template as<double>()) - Vector<double>(1.5);
     const auto exponent = Registers<std::uint64_t>::map([](auto x) { return hn::ShiftRight<52>(x); }, u);
@@ -195,6 +196,15 @@ class VectorDraw {
       return normal_double();
     }
   }
+
+  /// A normal number unless it is far in the tail, and then `least` is left below kTail: see make_ready().
+  MOTE_INLINE Vector<R> near_normal(Vector<R>& least) requires std::is_same_v<R, float> {
+    const auto bits = halves(generators_.next());
+    const Registers<float> u = magnitude(bits);
+    least = min(least, Vector<float>(u));
+    return signed_as(polynomials_(u.template as<std::uint32_t>()), bits);
+  }
+  static constexpr float kTail = 32768;
 
   MOTE_INLINE Vector<R> uniform() {
     if constexpr (std::is_same_v<R, float>) {
@@ -266,16 +276,14 @@ class VectorDraw {
 #endif
   }
 
-  MOTE_INLINE Vector<float> normal_float() {
-    using U = Registers<std::uint32_t>;
-    using Tag = U::Tag;
-    const U bits = halves(generators_.next());
-    const U m = U::map([](auto b) { return hn::And(b, hn::Set(Tag{}, 0x7FFFFFFFU)); }, bits);
-    Registers<float> u;
+  /// p 2^32 of the draw's magnitude.
+  static MOTE_INLINE Registers<float> magnitude(const Registers<std::uint32_t>& bits) {
+    using Tag = Registers<std::uint32_t>::Tag;
+    const auto m = Registers<std::uint32_t>::map([](auto b) { return hn::And(b, hn::Set(Tag{}, 0x7FFFFFFFU)); }, bits);
 #if HWY_TARGET <= HWY_AVX3
-    u.r[0].raw = _mm512_cvt_roundepi32_ps(m.r[0].raw, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
+    return {{Registers<float>::Register{_mm512_cvt_roundepi32_ps(m.r[0].raw, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC)}}};
 #else
-    u = Registers<float>::map(
+    return Registers<float>::map(
         [](auto x) {
           const Registers<float>::Tag tag;
           const auto whole = hn::BitCast(Registers<std::int32_t>::Tag{}, x);
@@ -283,8 +291,13 @@ class VectorDraw {
         },
         m);
 #endif
+  }
+
+  MOTE_INLINE Vector<float> normal_float() {
+    const auto bits = halves(generators_.next());
+    const Registers<float> u = magnitude(bits);
     Vector<float> z = polynomials_(u.template as<std::uint32_t>());
-    const Mask<float> rare = Vector<float>(u) < Vector<float>(32768.0F);
+    const Mask<float> rare = Vector<float>(u) < Vector<float>(kTail);
     if (__builtin_expect(rare.any(), 0)) z = tail(z, bits, generators_.refinement(), rare.bits());
     return signed_as(z, bits);
   }
@@ -406,14 +419,39 @@ class ReadyDraw {
   const Number* next_;
 };
 
+/// Draws of one kind for the next `count` particles, `draws` for each.
+template <class R, class OneDraw>
+MOTE_INLINE void make_alike(std::size_t draws, std::size_t count, R* numbers, const OneDraw& one) {
+  for (std::size_t j = 0; j < count; j += kWidth<R>)
+    for (std::size_t k = 0; k < draws; ++k) one().store(numbers + k * kBlock + j);
+}
+
+/// Normal numbers for the next `count` particles, none of them far in the tail; false if one was, and then nothing has
+/// been drawn: a loop without a rare branch is the faster one, and few blocks meet a tail.
+[[gnu::flatten, gnu::noinline]] inline bool make_near_normals(VectorDraw<float>& source, std::size_t draws,
+                                                              std::size_t count, float* numbers) {
+  VectorDraw<float> draw = source;
+  Vector<float> least(VectorDraw<float>::kTail);
+  if (draws == 1)
+    make_alike(1, count, numbers, [&] { return draw.near_normal(least); });
+  else
+    make_alike(draws, count, numbers, [&] { return draw.near_normal(least); });
+  if ((least < Vector<float>(VectorDraw<float>::kTail)).any()) return false;
+  source = draw;
+  return true;
+}
+
 /// Makes the draws of the next `count` particles, as ReadyDraw reads them from offset 0 on.
 template <class R>
 [[gnu::flatten, gnu::noinline]] void make_ready(VectorDraw<R>& source, const DrawPattern& pattern, std::size_t count,
                                                 R* numbers) {
-  VectorDraw<R> draw = source;
   const std::size_t draws = pattern.normal.size();
-  if (draws == 1 && pattern.normal[0]) {
-    for (std::size_t j = 0; j < count; j += kWidth<R>) draw.normal().store(numbers + j);
+  const bool all_normal = std::find(pattern.normal.begin(), pattern.normal.end(), false) == pattern.normal.end();
+  if constexpr (std::is_same_v<R, float>)
+    if (all_normal && make_near_normals(source, draws, count, numbers)) return;
+  VectorDraw<R> draw = source;
+  if (all_normal) {
+    make_alike(draws, count, numbers, [&] { return draw.normal(); });
   } else {
     for (std::size_t j = 0; j < count; j += kWidth<R>)
       for (std::size_t k = 0; k < draws; ++k)

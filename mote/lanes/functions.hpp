@@ -22,24 +22,23 @@ inline namespace HWY_NAMESPACE {
 namespace detail {
 
 /// c[0] + c[1] x + ... by Horner's rule.
-template <class R, std::size_t kBytes, std::size_t N>
-MOTE_INLINE Vector<R, kBytes> polynomial(const Vector<R, kBytes>& x, const std::array<double, N>& c) {
-  return horner<N - 1>(x, [&](std::size_t i) { return Vector<R, kBytes>(c[i]); });
+template <class R, std::size_t N>
+MOTE_INLINE Vector<R> polynomial(const Vector<R>& x, const std::array<double, N>& c) {
+  return horner<N - 1>(x, [&](std::size_t i) { return Vector<R>(c[i]); });
 }
 
 /// The integer lanes of the width of R.
 template <class R>
 using Whole = std::conditional_t<std::is_same_v<R, float>, std::int32_t, std::int64_t>;
 
-template <class R, std::size_t kBytes>
-MOTE_INLINE Registers<Whole<R>, kBytes> to_whole(const Vector<R, kBytes>& a) {
-  return Registers<Whole<R>, kBytes>::map(
-      [](auto x) { return hn::ConvertTo(typename Registers<Whole<R>, kBytes>::Tag{}, x); }, a.parts);
+template <class R>
+MOTE_INLINE Registers<Whole<R>> to_whole(const Vector<R>& a) {
+  return Registers<Whole<R>>::map([](auto x) { return hn::ConvertTo(typename Registers<Whole<R>>::Tag{}, x); },
+                                  a.parts);
 }
-template <class R, std::size_t kBytes>
-MOTE_INLINE Vector<R, kBytes> from_whole(const Registers<Whole<R>, kBytes>& a) {
-  return Vector<R, kBytes>(
-      Registers<R, kBytes>::map([](auto x) { return hn::ConvertTo(typename Registers<R, kBytes>::Tag{}, x); }, a));
+template <class R>
+MOTE_INLINE Vector<R> from_whole(const Registers<Whole<R>>& a) {
+  return Vector<R>(Registers<R>::map([](auto x) { return hn::ConvertTo(typename Registers<R>::Tag{}, x); }, a));
 }
 template <class R>
 inline constexpr int kMantissaBits = std::is_same_v<R, float> ? 23 : 52;
@@ -47,19 +46,18 @@ template <class R>
 inline constexpr int kBias = std::is_same_v<R, float> ? 127 : 1023;
 
 /// 2^n for whole n from -bias + 1 to bias.
-template <class R, std::size_t kBytes>
-MOTE_INLINE Vector<R, kBytes> power_of_two(const Vector<R, kBytes>& n) {
-  const auto biased = to_whole(n + Vector<R, kBytes>(kBias<R>));
-  const auto shifted =
-      Registers<Whole<R>, kBytes>::map([](auto x) { return hn::ShiftLeft<kMantissaBits<R>>(x); }, biased);
-  return Vector<R, kBytes>(shifted.template as<R>());
+template <class R>
+MOTE_INLINE Vector<R> power_of_two(const Vector<R>& n) {
+  const auto biased = to_whole(n + Vector<R>(kBias<R>));
+  const auto shifted = Registers<Whole<R>>::map([](auto x) { return hn::ShiftLeft<kMantissaBits<R>>(x); }, biased);
+  return Vector<R>(shifted.template as<R>());
 }
 
 /// p 2^n for whole n; underflows to zero, overflows to infinity.
-template <class R, std::size_t kBytes>
-MOTE_INLINE Vector<R, kBytes> scaled(const Vector<R, kBytes>& p, const Vector<R, kBytes>& n) {
+template <class R>
+MOTE_INLINE Vector<R> scaled(const Vector<R>& p, const Vector<R>& n) {
 #if HWY_TARGET <= HWY_AVX3
-  return Vector<R, kBytes>::map(
+  return Vector<R>::map(
       [](auto x, auto e) {
         if constexpr (std::is_same_v<R, float>) {
           return decltype(x){_mm512_scalef_ps(x.raw, e.raw)};
@@ -70,69 +68,73 @@ MOTE_INLINE Vector<R, kBytes> scaled(const Vector<R, kBytes>& p, const Vector<R,
       p, n);
 #else
   // in two steps, so that results near the ends of the range are reached
-  const Vector<R, kBytes> bounded = max(min(n, Vector<R, kBytes>(2 * kBias<R>)), Vector<R, kBytes>(2 - 2 * kBias<R>));
-  const Vector<R, kBytes> first = floor(bounded * Vector<R, kBytes>(0.5));
+  const Vector<R> bounded = max(min(n, Vector<R>(2 * kBias<R>)), Vector<R>(2 - 2 * kBias<R>));
+  const Vector<R> first = floor(bounded * Vector<R>(0.5));
   return p * power_of_two(first) * power_of_two(bounded - first);
 #endif
 }
 
-/// ln 2 to the power i over i factorial: 2^f = sum c_i f^i.
-template <std::size_t N>
-constexpr std::array<double, N> exp2_series() {
-  std::array<double, N> c{1};
-  for (std::size_t i = 1; i < N; ++i) c[i] = c[i - 1] * std::numbers::ln2 / static_cast<double>(i);
-  return c;
-}
-/// Least-error polynomial of 2^f on [-1/2, 1/2] that is 1 at 0.
+/// Least-error polynomials of 2^f on [-1/2, 1/2] that are 1 at 0.
 inline constexpr std::array<double, 6> kExp2Float{
     1.0, 6.931469775e-01, 2.402224184e-01, 5.550733813e-02, 9.671529072e-03, 1.326476231e-03};
+inline constexpr std::array<double, 11> kExp2Double{1.0,
+                                                    6.93147180559946174e-01,
+                                                    2.40226506959100750e-01,
+                                                    5.55041086646516704e-02,
+                                                    9.61812910761866528e-03,
+                                                    1.33335582007945925e-03,
+                                                    1.54035304247765285e-04,
+                                                    1.52526729248507372e-05,
+                                                    1.32154516332214336e-06,
+                                                    1.02059054137655955e-07,
+                                                    7.07097786650813908e-09};
 /// log(3/2 + s) for s in [-1/2, 1/2], by Chebyshev's series.
 inline constexpr std::array<double, 7> kLogFloat{4.054652915e-01,  6.666836726e-01, -2.222453974e-01, 9.823154226e-02,
                                                  -4.892903467e-02, 3.044900454e-02, -1.741407752e-02};
-inline constexpr std::array<double, 12> kExp2Double = exp2_series<12>();
 
 }  // namespace detail
 
-/// 2^t for weights: relative error below 3e-7 (float), 1e-14 (double); no infinities or NaN in, 0 for t = -infinity.
-template <class R, std::size_t kBytes>
-MOTE_INLINE Vector<R, kBytes> exp2_weight(const Vector<R, kBytes>& t) {
+/// 2^t for weights: relative error below 3e-7 (float), 1e-14 (double); 0 for t = -infinity, NaN for NaN, not for
+/// t = infinity.
+template <class R>
+MOTE_INLINE Vector<R> exp2_weight(const Vector<R>& t) {
 #if HWY_TARGET <= HWY_AVX3
   if constexpr (std::is_same_v<R, float>) {
-    return Vector<R, kBytes>::map(
+    return Vector<R>::map(
         [](auto x) {
           const auto f = decltype(x){_mm512_reduce_ps(x.raw, 0)};
           const auto n = hn::Sub(x, f);
-          const Vector<R, 64> p = detail::polynomial(Vector<R, 64>(Registers<R, 64>{{f}}), detail::kExp2Float);
+          const Vector<R> p = detail::polynomial(Vector<R>(Registers<R>{{f}}), detail::kExp2Float);
           return decltype(x){_mm512_scalef_ps(p.parts.r[0].raw, n.raw)};
         },
         t);
   } else {
-    return Vector<R, kBytes>::map(
+    return Vector<R>::map(
         [](auto x) {
           const auto f = decltype(x){_mm512_reduce_pd(x.raw, 0)};
           const auto n = hn::Sub(x, f);
-          const Vector<R, 64> p = detail::polynomial(Vector<R, 64>(Registers<R, 64>{{f}}), detail::kExp2Double);
+          const Vector<R> p = detail::polynomial(Vector<R>(Registers<R>{{f}}), detail::kExp2Double);
           return decltype(x){_mm512_scalef_pd(p.parts.r[0].raw, n.raw)};
         },
         t);
   }
 #else
   // below 2^least the weight of a particle is nothing beside the heaviest of its block
-  const Vector<R, kBytes> bounded = max(t, Vector<R, kBytes>(2 - detail::kBias<R>));
-  const Vector<R, kBytes> n = round(bounded);
-  Vector<R, kBytes> p;
+  const Vector<R> bounded = max(Vector<R>(2 - detail::kBias<R>), t);
+  const Vector<R> n = round(bounded);
+  Vector<R> p;
   if constexpr (std::is_same_v<R, float>) {
     p = detail::polynomial(bounded - n, detail::kExp2Float);
   } else {
     p = detail::polynomial(bounded - n, detail::kExp2Double);
   }
-  return select(t < Vector<R, kBytes>(2 - detail::kBias<R>), Vector<R, kBytes>(0), p * detail::power_of_two(n));
+  return select(t < Vector<R>(2 - detail::kBias<R>), Vector<R>(0), p * detail::power_of_two(n));
 #endif
 }
 
-template <class R, std::size_t kBytes>
-MOTE_INLINE Vector<R, kBytes> exp(const Vector<R, kBytes>& x) {
-  using V = Vector<R, kBytes>;
+template <class R>
+MOTE_INLINE Vector<R> exp(const Vector<R>& x) {
+  using V = Vector<R>;
   constexpr bool kFloat = std::is_same_v<R, float>;
   // beyond these the result is 0 or infinite anyway; NaN passes through min and max as the second operand's
   const V bounded = min(max(x, V(kFloat ? -105.0 : -750.0)), V(kFloat ? 90.0 : 711.0));
@@ -157,10 +159,10 @@ MOTE_INLINE Vector<R, kBytes> exp(const Vector<R, kBytes>& x) {
   return select(x == x, result, x);
 }
 
-template <class R, std::size_t kBytes>
-MOTE_INLINE Vector<R, kBytes> log(const Vector<R, kBytes>& x) {
-  using V = Vector<R, kBytes>;
-  using I = Registers<detail::Whole<R>, kBytes>;
+template <class R>
+MOTE_INLINE Vector<R> log(const Vector<R>& x) {
+  using V = Vector<R>;
+  using I = Registers<detail::Whole<R>>;
   using T = typename I::Tag;
   constexpr bool kFloat = std::is_same_v<R, float>;
   // a subnormal is scaled up first
@@ -198,16 +200,16 @@ MOTE_INLINE Vector<R, kBytes> log(const Vector<R, kBytes>& x) {
 
 /// log u of uniform numbers for comparisons, 0 < u < 1 and normal: error below 2e-6 + 1 ulp (float), that of log() in
 /// double.
-template <class R, std::size_t kBytes>
-MOTE_INLINE Vector<R, kBytes> log_uniform(const Vector<R, kBytes>& u) {
+template <class R>
+MOTE_INLINE Vector<R> log_uniform(const Vector<R>& u) {
 #if HWY_TARGET <= HWY_AVX3
   if constexpr (std::is_same_v<R, float>) {
-    return Vector<R, kBytes>::map(
+    return Vector<R>::map(
         [](auto x) {
           const auto e = decltype(x){_mm512_getexp_ps(x.raw)};
           const auto m = decltype(x){_mm512_getmant_ps(x.raw, _MM_MANT_NORM_1_2, _MM_MANT_SIGN_zero)};
-          const Vector<R, 64> s(Registers<R, 64>{{hn::Sub(m, hn::Set(typename Registers<R, 64>::Tag{}, 1.5F))}});
-          return hn::MulAdd(e, hn::Set(typename Registers<R, 64>::Tag{}, std::numbers::ln2_v<float>),
+          const Vector<R> s(Registers<R>{{hn::Sub(m, hn::Set(typename Registers<R>::Tag{}, 1.5F))}});
+          return hn::MulAdd(e, hn::Set(typename Registers<R>::Tag{}, std::numbers::ln2_v<float>),
                             detail::polynomial(s, detail::kLogFloat).parts.r[0]);
         },
         u);
@@ -219,24 +221,19 @@ MOTE_INLINE Vector<R, kBytes> log_uniform(const Vector<R, kBytes>& u) {
 namespace detail {
 
 /// Lanes computed one by one by the scalar library.
-template <class R, std::size_t kBytes, class F>
-[[gnu::noinline, gnu::const]] Vector<R, kBytes> one_by_one(F f, Vector<R, kBytes> x) noexcept {
-  alignas(64) std::array<R, kBytes / sizeof(R)> lane;
+template <class R, class F>
+[[gnu::noinline, gnu::const]] Vector<R> one_by_one(F f, Vector<R> x) noexcept {
+  alignas(64) std::array<R, 64 / sizeof(R)> lane;
   x.store(lane.data());
   for (R& v : lane) v = f(v);
-  return Vector<R, kBytes>::load(lane.data());
+  return Vector<R>::load(lane.data());
 }
 
-template <class R, std::size_t kBytes>
-struct SinCos {
-  Vector<R, kBytes> sine, cosine;
-};
-
 /// sin and cos of arguments up to kReducible.
-template <class R, std::size_t kBytes>
-MOTE_INLINE SinCos<R, kBytes> sin_cos(const Vector<R, kBytes>& x) {
-  using V = Vector<R, kBytes>;
-  using I = Registers<Whole<R>, kBytes>;
+template <class R>
+MOTE_INLINE numbers::SinCos<Vector<R>> reduced_sin_cos(const Vector<R>& x) {
+  using V = Vector<R>;
+  using I = Registers<Whole<R>>;
   using T = typename I::Tag;
   constexpr bool kFloat = std::is_same_v<R, float>;
   const V n = round(x * V(2 / kPi));
@@ -284,7 +281,7 @@ MOTE_INLINE SinCos<R, kBytes> sin_cos(const Vector<R, kBytes>& x) {
   }
   // quarter q: (s, c), (c, -s), (-s, -c), (-c, s)
   const I q = to_whole(n);
-  Mask<R, kBytes> swapped;
+  Mask<R> swapped;
   for (std::size_t k = 0; k < q.r.size(); ++k)
     swapped.r[k] = hn::RebindMask(typename V::Tag{}, hn::TestBit(q.r[k], hn::Set(T{}, 1)));
   const auto second_bit = [](const I& v) {  // as a sign
@@ -298,48 +295,55 @@ MOTE_INLINE SinCos<R, kBytes> sin_cos(const Vector<R, kBytes>& x) {
   return {signed_as(select(swapped, c, s), sine_sign), signed_as(select(swapped, s, c), cosine_sign)};
 }
 
-/// The largest argument that sin_cos() reduces well.
+/// The largest argument that reduced_sin_cos() reduces well.
 template <class R>
 inline constexpr double kReducible = HWY_NATIVE_FMA ? (std::is_same_v<R, float> ? 0x1p13 : 0x1p26)
                                                     : (std::is_same_v<R, float> ? 0x1p7 : 0x1p19);
 
-/// True if every lane is an argument that sin_cos() reduces well.
-template <class R, std::size_t kBytes>
-MOTE_INLINE bool reducible(const Vector<R, kBytes>& x) {
-  return (abs(x) < Vector<R, kBytes>(kReducible<R>)).bits() ==
-         static_cast<std::uint32_t>((std::uint64_t{1} << Vector<R, kBytes>::kLanes) - 1);
+/// True if every lane is an argument that reduced_sin_cos() reduces well.
+template <class R>
+MOTE_INLINE bool reducible(const Vector<R>& x) {
+  return (abs(x) < Vector<R>(kReducible<R>)).bits() ==
+         static_cast<std::uint32_t>((std::uint64_t{1} << Vector<R>::kLanes) - 1);
 }
 
 }  // namespace detail
 
-template <class R, std::size_t kBytes>
-MOTE_INLINE Vector<R, kBytes> sin(const Vector<R, kBytes>& x) {
+template <class R>
+MOTE_INLINE numbers::SinCos<Vector<R>> sin_cos(const Vector<R>& x) {
+  if (!detail::reducible(x))
+    return {detail::one_by_one([](R v) { return std::sin(v); }, x),
+            detail::one_by_one([](R v) { return std::cos(v); }, x)};
+  return detail::reduced_sin_cos(x);
+}
+template <class R>
+MOTE_INLINE Vector<R> sin(const Vector<R>& x) {
   if (!detail::reducible(x)) return detail::one_by_one([](R v) { return std::sin(v); }, x);
-  return detail::sin_cos(x).sine;
+  return detail::reduced_sin_cos(x).sine;
 }
-template <class R, std::size_t kBytes>
-MOTE_INLINE Vector<R, kBytes> cos(const Vector<R, kBytes>& x) {
+template <class R>
+MOTE_INLINE Vector<R> cos(const Vector<R>& x) {
   if (!detail::reducible(x)) return detail::one_by_one([](R v) { return std::cos(v); }, x);
-  return detail::sin_cos(x).cosine;
+  return detail::reduced_sin_cos(x).cosine;
 }
-template <class R, std::size_t kBytes>
-MOTE_INLINE Vector<R, kBytes> tan(const Vector<R, kBytes>& x) {
+template <class R>
+MOTE_INLINE Vector<R> tan(const Vector<R>& x) {
   if (!detail::reducible(x)) return detail::one_by_one([](R v) { return std::tan(v); }, x);
-  const auto both = detail::sin_cos(x);
+  const auto both = detail::reduced_sin_cos(x);
   return both.sine / both.cosine;
 }
 
 namespace detail {
 
 /// atan(top / bottom) for 0 <= top <= bottom, top and bottom finite; 0 for 0/0.
-template <class R, std::size_t kBytes>
-MOTE_INLINE Vector<R, kBytes> atan_of_ratio(const Vector<R, kBytes>& top, const Vector<R, kBytes>& bottom) {
-  using V = Vector<R, kBytes>;
+template <class R>
+MOTE_INLINE Vector<R> atan_of_ratio(const Vector<R>& top, const Vector<R>& bottom) {
+  using V = Vector<R>;
   // above tan(pi/8): atan(t) = pi/4 + atan((t - 1) / (t + 1)), formed before the one division
   const auto steep = V(0.41421356237309504880) * bottom < top;
   const V numerator = select(steep, top - bottom, top);
   const V denominator = select(steep, top + bottom, bottom);
-  const V t = numerator / max(denominator, V(std::numeric_limits<R>::min()));
+  const V t = numerator / max(V(std::numeric_limits<R>::min()), denominator);
   const V z = t * t;
   const V base = select(steep, V(kPi / 4), V(0));
   if constexpr (std::is_same_v<R, float>) {
@@ -359,30 +363,29 @@ MOTE_INLINE Vector<R, kBytes> atan_of_ratio(const Vector<R, kBytes>& top, const 
 }
 
 /// v with the sign of s.
-template <class R, std::size_t kBytes>
-MOTE_INLINE Vector<R, kBytes> with_sign(const Vector<R, kBytes>& v, const Vector<R, kBytes>& s) {
-  return Vector<R, kBytes>::map([](auto a, auto b) { return hn::CopySign(a, b); }, v, s);
+template <class R>
+MOTE_INLINE Vector<R> with_sign(const Vector<R>& v, const Vector<R>& s) {
+  return Vector<R>::map([](auto a, auto b) { return hn::CopySign(a, b); }, v, s);
 }
 
 }  // namespace detail
 
-template <class R, std::size_t kBytes>
-MOTE_INLINE Vector<R, kBytes> atan2(const Vector<R, kBytes>& y, const Vector<R, kBytes>& x) {
-  using V = Vector<R, kBytes>;
+template <class R>
+MOTE_INLINE Vector<R> atan2(const Vector<R>& y, const Vector<R>& x) {
+  using V = Vector<R>;
   const V largest(std::numeric_limits<R>::max());
-  const V ay = min(abs(y), largest);
-  const V ax = min(abs(x), largest);
+  const V ay = min(largest, abs(y));  // in this order NaN goes through, here and in what follows
+  const V ax = min(largest, abs(x));
   const auto swapped = ax < ay;
   V a = detail::atan_of_ratio(select(swapped, ax, ay), select(swapped, ay, ax));
   a = select(swapped, V(kPi / 2) - a, a);
   const auto behind = detail::with_sign(V(1), x) < V(0);
-  a = detail::with_sign(select(behind, V(kPi) - a, a), y);
-  return select(x == x, select(y == y, a, y), x);  // NaN in either argument comes out
+  return detail::with_sign(select(behind, V(kPi) - a, a), y);
 }
 
-template <class R, std::size_t kBytes>
-MOTE_INLINE Vector<R, kBytes> atan(const Vector<R, kBytes>& x) {
-  using V = Vector<R, kBytes>;
+template <class R>
+MOTE_INLINE Vector<R> atan(const Vector<R>& x) {
+  using V = Vector<R>;
   const V ax = abs(x);
   const auto swapped = V(1) < ax;
   const V a = detail::atan_of_ratio(select(swapped, V(1), min(ax, V(std::numeric_limits<R>::max()))),

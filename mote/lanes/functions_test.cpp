@@ -69,6 +69,8 @@ TEST(Functions, WeightsKeepTheirRelativeError) {
   }
   EXPECT_EQ(first(exp2_weight(Vector<float>(-kInfinity))), 0.0F);
   EXPECT_EQ(first(exp2_weight(Vector<double>(-kInfinity))), 0.0);
+  EXPECT_TRUE(std::isnan(first(exp2_weight(Vector<float>(kNaN)))));
+  EXPECT_TRUE(std::isnan(first(exp2_weight(Vector<double>(kNaN)))));
 }
 
 }  // namespace

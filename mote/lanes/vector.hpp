@@ -33,17 +33,21 @@ MOTE_INLINE void unrolled(const F& f) {
   (std::make_index_sequence<kCount>());
 }
 
+/// Asks for the cache line at p to be in the second-level cache in a while; p may point anywhere. Blocks are pages of
+/// their own to a processor, which foresees no further than the page it is in.
+template <class T>
+MOTE_INLINE void prefetch(const T* p) {
+  __builtin_prefetch(p, 0, 2);
+}
+
 /// Lanes of a vector of R.
 template <class R>
 inline constexpr std::size_t kWidth = 64 / sizeof(R);
 
-/// True where 512-bit registers and their masks exist: the few places where one instruction does what others build.
-inline constexpr bool kWide = HWY_TARGET <= HWY_AVX3;
-
-/// A vector of kBytes bytes of T, as native registers: what Vector and the generators are made of.
-template <class T, std::size_t kBytes = 64>
+/// A vector of 64 bytes of T, as native registers: what Vector and the generators are made of.
+template <class T>
 struct Registers {
-  static constexpr std::size_t kLanes = kBytes / sizeof(T);
+  static constexpr std::size_t kLanes = 64 / sizeof(T);
   using Tag = hn::CappedTag<T, 64 / sizeof(T)>;
   using Register = hn::Vec<Tag>;
   static constexpr std::size_t kPerRegister = hn::MaxLanes(Tag{});
@@ -73,17 +77,17 @@ struct Registers {
   }
   /// The same bits as lanes of U.
   template <class U>
-  MOTE_INLINE Registers<U, kBytes> as() const {
-    Registers<U, kBytes> out;
+  MOTE_INLINE Registers<U> as() const {
+    Registers<U> out;
     unrolled<kCount>([&](std::size_t k) { out.r[k] = hn::BitCast(typename Registers<U>::Tag{}, r[k]); });
     return out;
   }
 };
 
 /// Where a comparison holds, lane by lane.
-template <class R, std::size_t kBytes = 64>
+template <class R>
 struct Mask {
-  using Parts = Registers<R, kBytes>;
+  using Parts = Registers<R>;
   using Register = hn::Mask<typename Parts::Tag>;
   std::array<Register, Parts::kCount> r;
 
@@ -114,13 +118,11 @@ struct Mask {
   }
 };
 
-/// kBytes / sizeof(R) numbers at once: by default as many as a block's generators serve. With 128 bytes, every
-/// operation is done on two independent halves one after the other, which hides the latency of long chains of
-/// operations.
-template <class R, std::size_t kBytes = 64>
+/// kWidth<R> numbers at once: as many as a block's generators serve.
+template <class R>
 struct Vector {
   using Number = R;
-  using Parts = Registers<R, kBytes>;
+  using Parts = Registers<R>;
   using Tag = typename Parts::Tag;
   static constexpr std::size_t kLanes = Parts::kLanes;
 
@@ -140,8 +142,8 @@ struct Vector {
     return Vector(Parts::map(f, others.parts...));
   }
   template <class F, class... Others>
-  static MOTE_INLINE Mask<R, kBytes> compare(F f, const Others&... others) {
-    Mask<R, kBytes> out;
+  static MOTE_INLINE Mask<R> compare(F f, const Others&... others) {
+    Mask<R> out;
     unrolled<Parts::kCount>([&](std::size_t k) { out.r[k] = f(others.parts.r[k]...); });
     return out;
   }
@@ -158,13 +160,13 @@ struct Vector {
   friend MOTE_INLINE Vector operator-(const Vector& a) {
     return map([](auto x) { return hn::Neg(x); }, a);
   }
-  friend MOTE_INLINE Mask<R, kBytes> operator<(const Vector& a, const Vector& b) {
+  friend MOTE_INLINE Mask<R> operator<(const Vector& a, const Vector& b) {
     return compare([](auto x, auto y) { return hn::Lt(x, y); }, a, b);
   }
-  friend MOTE_INLINE Mask<R, kBytes> operator==(const Vector& a, const Vector& b) {
+  friend MOTE_INLINE Mask<R> operator==(const Vector& a, const Vector& b) {
     return compare([](auto x, auto y) { return hn::Eq(x, y); }, a, b);
   }
-  friend MOTE_INLINE Mask<R, kBytes> operator<=(const Vector& a, const Vector& b) {
+  friend MOTE_INLINE Mask<R> operator<=(const Vector& a, const Vector& b) {
     return compare([](auto x, auto y) { return hn::Le(x, y); }, a, b);
   }
   /// Quotient; error below 2.5 ulp where divisor and quotient are normal numbers, infinities and zeros as usual.
@@ -199,58 +201,58 @@ struct Vector {
 };
 
 /// a where the mask holds, else b.
-template <class R, std::size_t kBytes>
-MOTE_INLINE Vector<R, kBytes> select(const Mask<R, kBytes>& m, const Vector<R, kBytes>& a, const Vector<R, kBytes>& b) {
-  Vector<R, kBytes> out;
-  unrolled<Vector<R, kBytes>::Parts::kCount>(
+template <class R>
+MOTE_INLINE Vector<R> select(const Mask<R>& m, const Vector<R>& a, const Vector<R>& b) {
+  Vector<R> out;
+  unrolled<Vector<R>::Parts::kCount>(
       [&](std::size_t k) { out.parts.r[k] = hn::IfThenElse(m.r[k], a.parts.r[k], b.parts.r[k]); });
   return out;
 }
-template <class R, std::size_t kBytes>
-MOTE_INLINE Mask<R, kBytes> less(const Vector<R, kBytes>& a, const Vector<R, kBytes>& b) {
+template <class R>
+MOTE_INLINE Mask<R> less(const Vector<R>& a, const Vector<R>& b) {
   return a < b;
 }
-template <class R, std::size_t kBytes>
-MOTE_INLINE Vector<R, kBytes> abs(const Vector<R, kBytes>& a) {
-  return Vector<R, kBytes>::map([](auto x) { return hn::Abs(x); }, a);
+template <class R>
+MOTE_INLINE Vector<R> abs(const Vector<R>& a) {
+  return Vector<R>::map([](auto x) { return hn::Abs(x); }, a);
 }
-template <class R, std::size_t kBytes>
-MOTE_INLINE Vector<R, kBytes> sqrt(const Vector<R, kBytes>& a) {
-  return Vector<R, kBytes>::map([](auto x) { return hn::Sqrt(x); }, a);
+template <class R>
+MOTE_INLINE Vector<R> sqrt(const Vector<R>& a) {
+  return Vector<R>::map([](auto x) { return hn::Sqrt(x); }, a);
 }
-template <class R, std::size_t kBytes>
-MOTE_INLINE Vector<R, kBytes> floor(const Vector<R, kBytes>& a) {
-  return Vector<R, kBytes>::map([](auto x) { return hn::Floor(x); }, a);
+template <class R>
+MOTE_INLINE Vector<R> floor(const Vector<R>& a) {
+  return Vector<R>::map([](auto x) { return hn::Floor(x); }, a);
 }
 /// The nearest whole number, ties to even.
-template <class R, std::size_t kBytes>
-MOTE_INLINE Vector<R, kBytes> round(const Vector<R, kBytes>& a) {
-  return Vector<R, kBytes>::map([](auto x) { return hn::Round(x); }, a);
+template <class R>
+MOTE_INLINE Vector<R> round(const Vector<R>& a) {
+  return Vector<R>::map([](auto x) { return hn::Round(x); }, a);
 }
 /// The larger; b where a is NaN.
-template <class R, std::size_t kBytes>
-MOTE_INLINE Vector<R, kBytes> max(const Vector<R, kBytes>& a, const Vector<R, kBytes>& b) {
-  return Vector<R, kBytes>::map([](auto x, auto y) { return hn::Max(x, y); }, a, b);
+template <class R>
+MOTE_INLINE Vector<R> max(const Vector<R>& a, const Vector<R>& b) {
+  return Vector<R>::map([](auto x, auto y) { return hn::Max(x, y); }, a, b);
 }
-template <class R, std::size_t kBytes>
-MOTE_INLINE Vector<R, kBytes> min(const Vector<R, kBytes>& a, const Vector<R, kBytes>& b) {
-  return Vector<R, kBytes>::map([](auto x, auto y) { return hn::Min(x, y); }, a, b);
+template <class R>
+MOTE_INLINE Vector<R> min(const Vector<R>& a, const Vector<R>& b) {
+  return Vector<R>::map([](auto x, auto y) { return hn::Min(x, y); }, a, b);
 }
 /// a b + c in one rounding where the machine has it.
-template <class R, std::size_t kBytes>
-MOTE_INLINE Vector<R, kBytes> fma(const Vector<R, kBytes>& a, const Vector<R, kBytes>& b, const Vector<R, kBytes>& c) {
-  return Vector<R, kBytes>::map([](auto x, auto y, auto z) { return hn::MulAdd(x, y, z); }, a, b, c);
+template <class R>
+MOTE_INLINE Vector<R> fma(const Vector<R>& a, const Vector<R>& b, const Vector<R>& c) {
+  return Vector<R>::map([](auto x, auto y, auto z) { return hn::MulAdd(x, y, z); }, a, b, c);
 }
 /// c - a b.
-template <class R, std::size_t kBytes>
-MOTE_INLINE Vector<R, kBytes> fnma(const Vector<R, kBytes>& a, const Vector<R, kBytes>& b, const Vector<R, kBytes>& c) {
-  return Vector<R, kBytes>::map([](auto x, auto y, auto z) { return hn::NegMulAdd(x, y, z); }, a, b, c);
+template <class R>
+MOTE_INLINE Vector<R> fnma(const Vector<R>& a, const Vector<R>& b, const Vector<R>& c) {
+  return Vector<R>::map([](auto x, auto y, auto z) { return hn::NegMulAdd(x, y, z); }, a, b, c);
 }
 
 /// entry(0) + entry(1) x + ... + entry(kDegree) x^kDegree by Horner's rule.
-template <std::size_t kDegree, class R, std::size_t kBytes, class Entry>
-MOTE_INLINE Vector<R, kBytes> horner(const Vector<R, kBytes>& x, const Entry& entry) {
-  Vector<R, kBytes> sum = entry(kDegree);
+template <std::size_t kDegree, class R, class Entry>
+MOTE_INLINE Vector<R> horner(const Vector<R>& x, const Entry& entry) {
+  Vector<R> sum = entry(kDegree);
   unrolled<kDegree>([&](std::size_t step) { sum = fma(sum, x, entry(kDegree - 1 - step)); });
   return sum;
 }
@@ -285,14 +287,14 @@ MOTE_INLINE void store_first(const Vector<R>& a, std::size_t count, R* to) {
 }
 
 /// Lane 0.
-template <class R, std::size_t kBytes>
-MOTE_INLINE R first(const Vector<R, kBytes>& a) {
+template <class R>
+MOTE_INLINE R first(const Vector<R>& a) {
   return hn::GetLane(a.parts.r[0]);
 }
 /// The sum of all lanes, formed in double.
-template <class R, std::size_t kBytes>
-MOTE_INLINE double sum(const Vector<R, kBytes>& a) {
-  alignas(64) std::array<R, kBytes / sizeof(R)> lane;
+template <class R>
+MOTE_INLINE double sum(const Vector<R>& a) {
+  alignas(64) std::array<R, 64 / sizeof(R)> lane;
   a.store(lane.data());
   double total = 0;
   for (std::size_t half = lane.size() / 2; half > 1; half /= 2)
@@ -301,11 +303,11 @@ MOTE_INLINE double sum(const Vector<R, kBytes>& a) {
   return total;
 }
 /// The largest lane.
-template <class R, std::size_t kBytes>
-MOTE_INLINE R largest(const Vector<R, kBytes>& a) {
+template <class R>
+MOTE_INLINE R largest(const Vector<R>& a) {
   auto high = a.parts.r[0];
   for (std::size_t k = 1; k < a.parts.r.size(); ++k) high = hn::Max(high, a.parts.r[k]);
-  return hn::GetLane(hn::MaxOfLanes(typename Vector<R, kBytes>::Tag{}, high));
+  return hn::GetLane(hn::MaxOfLanes(typename Vector<R>::Tag{}, high));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -212,11 +212,15 @@ struct Doa {
     S sine, cosine, q;  // sine and cosine up to a common positive factor
   };
   template <class S>
-  static Undisturbed<S> undisturbed(const State<S>& x) {
+  [[gnu::always_inline]] static Undisturbed<S> undisturbed(
+      const State<S>& x) {  // g++ leaves out some calls' flattening
     using namespace numbers;
     const S q = x[1];
-    const S stretch = S(1) + q * q + S(2) * q * cos(x[0] - x[2]);
-    return {sin(x[0]) + q * sin(x[2]), cos(x[0]) + q * cos(x[2]), q / sqrt(stretch)};
+    const auto theta = sin_cos(x[0]);
+    const auto phi = sin_cos(x[2]);
+    const S sine = theta.sine + q * phi.sine;
+    const S cosine = theta.cosine + q * phi.cosine;
+    return {sine, cosine, q / sqrt(sine * sine + cosine * cosine)};  // 1 + q^2 + 2 q cos(theta - phi)
   }
 };
 

@@ -70,8 +70,9 @@ class BlockPass {
       for (std::size_t j = 0; j < size_of(b); j += kLanes) {
         const V w = V::load(weights + j);
         const V angle = lanes::select(V(0) < w, V::load(angles + j), V(0));
-        cosines = lanes::fma(w, lanes::cos(angle), cosines);
-        sines = lanes::fma(w, lanes::sin(angle), sines);
+        const auto direction = lanes::sin_cos(angle);
+        cosines = lanes::fma(w, direction.cosine, cosines);
+        sines = lanes::fma(w, direction.sine, sines);
       }
       const double scale = totals_.scale_of(sums_.shift(b));
       c += scale * lanes::sum(cosines);
@@ -98,11 +99,15 @@ class BlockPass {
   struct Desk {
     std::vector<AlignedVector<R>> parents;
     ColumnPointers<R, kD> columns, to;
+    AlignedVector<R> log_weights;                // where nobody asks for them
     AlignedVector<R> numbers;                    // draws made ahead
     std::optional<lanes::VectorDraw<R>> source;  // that make them
 
     explicit Desk(std::size_t dimensions)
-        : parents(dimensions), columns(column_pointers<R, kD>(dimensions)), to(column_pointers<R, kD>(dimensions)) {
+        : parents(dimensions),
+          columns(column_pointers<R, kD>(dimensions)),
+          to(column_pointers<R, kD>(dimensions)),
+          log_weights(kBlock) {
       for (std::size_t d = 0; d < dimensions; ++d) {
         parents[d].resize(kBlock);
         columns[d] = parents[d].data();
@@ -142,10 +147,7 @@ class BlockPass {
     for (std::size_t b = 0; b < blocks(); ++b) sums_.set(b, {0, 0, 0});
   }
   /// Adds up what the blocks of a pass have noted.
-  void add_up() {
-    totals_ = sums_.totals();
-    if (std::isfinite(totals_.reference)) expected_ = totals_.reference;
-  }
+  void add_up() { totals_ = sums_.totals(); }
   /// Mean and standard deviation of component d of the last pass.
   Moments moments(std::size_t d) const {
     Moments both = sums_.moments(totals_, d);
@@ -170,21 +172,31 @@ class BlockPass {
   ///
   /// shape   weights: (1024,); logs: (1024,) or null, log weights in nat, read where weights are carried, written where
   ///         the rows are taken in; mass: what carried log weights sum to, log
+  ///
+  /// Loops of their own make the draws, move, weigh and sum: a processor runs a short chain of operations for many
+  /// vectors at once, a long one for few, and what they hand on stays in the first-level cache.
   template <Source kSource, Weights kWeights>
   void block(Desk& desk, std::size_t b, const Address& address, R* weights, R* logs, double mass = 0) {
-    // a state of a size that is not known lives in memory, and its loop gains nothing by being one
-    if constexpr (kD > 0 && kSource == Source::kProposal && kWeights == Weights::kFresh)
-      if (spreads_ ? expected_block<true>(desk, b, address, weights, logs)
-                   : expected_block<false>(desk, b, address, weights, logs))
-        return;
-    any_block<kSource, kWeights>(desk, b, address, weights, logs == nullptr ? weights : logs, mass);
+    constexpr bool kWeighs = Scene<kSource, kWeights>::kWeighs;
+    const std::size_t n = size_of(b);
+    R* const kept = logs == nullptr ? desk.log_weights.data() : logs;
+    const Scene<kSource, kWeights> scene{model_,       proposal_, static_cast<Step>(address.step), rows_, mass, kept, n,
+                                         desk.columns, desk.to};
+    const lanes::DrawPattern& pattern = patterns_[static_cast<std::size_t>(kSource)];
+    const std::size_t chunk = chunk_of(pattern);
+    V most(kNothing);
+    desk.start(address, pattern);
+    for (std::size_t start = 0; start < n; start += chunk) {
+      const std::size_t end = std::min(start + chunk, n);
+      desk.make_ready(pattern, end - start);
+      move(scene, start, end, desk.numbers.data());
+      if constexpr (kWeighs) most = lanes::max(most, weigh(scene, start, end));
+    }
+    sum<kWeights>(b, kWeighs ? lanes::largest(most) : R(0), kept, weights, desk.to);
   }
 
  private:
   static constexpr R kNothing = -std::numeric_limits<R>::infinity();
-  /// How far from 1 a block's sum of weights may be in the expected scale: squares of weights stay numbers.
-  static constexpr double kLeastSum = std::is_same_v<R, float> ? 0x1p-40 : 0x1p-400;
-
   /// Notes which draws a source takes for a particle; a proposal may take others when rows of another shape come.
   template <Source kSource>
   void note_pattern(const Particles<R>& like) {
@@ -198,15 +210,13 @@ class BlockPass {
     patterns_[static_cast<std::size_t>(kSource)] = draw.pattern();
   }
 
-  /// Sums of one component about the block's first particle.
+  /// Sums of one component about the block's first particle, or about 0 where no spread is asked for.
   struct Centred {
-    const R* x;
     V centre{0}, first{0}, second{0};
 
-    explicit MOTE_INLINE Centred(const R* states) : x(states) {}
-    /// Takes the first particle for the centre.
-    MOTE_INLINE void centre_at(const V& states) { centre = V(usable_centre(lanes::first(states))); }
-    template <bool kSpread = true>
+    Centred() = default;
+    MOTE_INLINE Centred(const R* states, bool spread) : centre(spread && std::isfinite(states[0]) ? states[0] : R(0)) {}
+    template <bool kSpread>
     MOTE_INLINE void add(const V& w, const V& states) {
       if constexpr (kSpread) {
         const V offset = states - centre;
@@ -217,139 +227,62 @@ class BlockPass {
         first = lanes::fma(w, states, first);
       }
     }
-    template <bool kSpread = true>
-    MOTE_INLINE ComponentSums sums(const R* weights, std::size_t n) const {
-      const auto c = kSpread ? static_cast<double>(usable_centre(x[0])) : 0.0;
-      const ComponentSums all{c, lanes::sum(first), lanes::sum(second)};
-      return std::isfinite(all.first + all.second) ? all : careful(c, x, weights, n);
-    }
-    static R usable_centre(R state) { return std::isfinite(state) ? state : R(0); }
-    /// Leaves out particles without weight, whose states may be anything.
-    [[gnu::noinline]] static ComponentSums careful(double c, const R* x, const R* weights, std::size_t n) {
-      ComponentSums all{c, 0, 0};
-      for (std::size_t i = 0; i < n; ++i) {
-        if (!(weights[i] > 0)) continue;
-        const double offset = static_cast<double>(x[i]) - c;
-        all.first += static_cast<double>(weights[i]) * offset;
-        all.second += static_cast<double>(weights[i]) * offset * offset;
-      }
-      return all;
-    }
   };
-
-  /// One pass over a block whose largest weight is about the last step's: weights are formed as they come, in its
-  /// scale. False if it was not so, or a density was no number: then nothing has been noted.
-  template <bool kSpread>
-  bool expected_block(Desk& desk, std::size_t b, const Address& address, R* weights, R* logs) {
-    const std::size_t n = size_of(b);
-    const Scene<Source::kProposal, Weights::kFresh> scene{
-        model_, proposal_, static_cast<Step>(address.step), rows_, 0, nullptr, desk.columns, desk.to};
-    Running<kSpread> running{V(-expected_), weights, logs, n, Centred(desk.to[0])};
-    desk.start(address, patterns_[static_cast<std::size_t>(Source::kProposal)]);
-    const std::size_t chunk = chunk_of<Source::kProposal>();
-    for (std::size_t start = 0; start < n; start += chunk) {
-      const std::size_t end = std::min(start + chunk, n);
-      desk.make_ready(patterns_[0], end - start);
-      expected_chunk<kSpread>(scene, start, end, desk.numbers.data(), running);
+  static ComponentSums component_sums(const Centred& sums, const R* states, const R* weights, std::size_t n) {
+    const ComponentSums all{lanes::first(sums.centre), lanes::sum(sums.first), lanes::sum(sums.second)};
+    return std::isfinite(all.first + all.second) ? all : careful_sums(all.centre, states, weights, n);
+  }
+  /// Leaves out particles without weight, whose states may be anything.
+  [[gnu::noinline]] static ComponentSums careful_sums(double centre, const R* states, const R* weights, std::size_t n) {
+    ComponentSums all{centre, 0, 0};
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!(weights[i] > 0)) continue;
+      const double offset = static_cast<double>(states[i]) - centre;
+      all.first += static_cast<double>(weights[i]) * offset;
+      all.second += static_cast<double>(weights[i]) * offset * offset;
     }
-    const WeightSums sums{expected_, lanes::sum(running.s), lanes::sum(running.ss)};
-    if (!(sums.weight > kLeastSum && sums.weight < 1 / kLeastSum)) return false;
-    sums_.set(b, sums);
-    sums_.set(b, 0, running.first.template sums<kSpread>(weights, n));
-    other_components(b, weights, desk.to);
-    return true;
+    return all;
   }
 
-  /// Weights and sums of a block as they come.
-  template <bool kSpread>
-  struct Running {
-    V shift;
-    R* weights;
-    R* logs;
-    std::size_t n;
-    Centred first;
-    V s{0}, ss{0};
-
-    MOTE_INLINE void add(std::size_t j, const V& l, const V& x) {
-      V w = lanes::exp2_weight(lanes::fma(l, V(std::numbers::log2e), shift));
-      if (__builtin_expect(j + kLanes > n, 0)) w = leading(w, n - j);
-      w.store(weights + j);
-      if (logs != nullptr) l.store(logs + j);
-      s = s + w;
-      ss = lanes::fma(w, w, ss);
-      if constexpr (kSpread)
-        if (j == 0) first.centre_at(x);
-      first.template add<kSpread>(w, x);
-    }
-  };
-
-  /// The hot loop, and nothing else: so its constants leave it.
-  template <bool kSpread, class S>
-  [[gnu::flatten, gnu::noinline]] static void expected_chunk(const S& scene, std::size_t start, std::size_t end,
-                                                             const R* numbers, Running<kSpread>& all) {
+  /// Moves particles [start, end).
+  template <class S>
+  [[gnu::flatten, gnu::noinline]] static void move(const S& scene, std::size_t start, std::size_t end,
+                                                   const R* numbers) {
     // local copies keep a small model's parameters and the pointers in registers: no store can change them
     const S here = scene;
     const std::conditional_t<std::is_trivially_copyable_v<M>, M, const M&> model = scene.model;
-    Running<kSpread> running = all;
     for (std::size_t j = start; j < end; j += kLanes) {
       lanes::ReadyDraw<V> draw(numbers, j - start);
-      const auto moved = here.move(model, j, draw);
-      running.add(j, moved.log_weight, moved.first);
+      here.move(model, j, draw);
     }
-    all = running;
   }
 
-  /// Any block: log weights first, then weights about the block's largest.
-  template <Source kSource, Weights kWeights>
-  [[gnu::noinline]] void any_block(Desk& desk, std::size_t b, const Address& address, R* weights, R* logs,
-                                   double mass) {
-    constexpr bool kWeighs = Scene<kSource, kWeights>::kWeighs;
-    const std::size_t n = size_of(b);
-    const Scene<kSource, kWeights> scene{model_,       proposal_, static_cast<Step>(address.step), rows_, mass, logs,
-                                         desk.columns, desk.to};
-    V most(kNothing);
-    desk.start(address, patterns_[static_cast<std::size_t>(kSource)]);
-    const std::size_t chunk = chunk_of<kSource>();
-    for (std::size_t start = 0; start < n; start += chunk) {
-      const std::size_t end = std::min(start + chunk, n);
-      desk.make_ready(patterns_[static_cast<std::size_t>(kSource)], end - start);
-      most = lanes::max(most, any_chunk(scene, start, end, desk.numbers.data(), logs, n));
-    }
-    sum<kWeights>(b, kWeighs ? lanes::largest(most) : R(0), logs, weights, desk.to);
-  }
-
+  /// Log weights of particles [start, end); the largest in each lane, NaN aside.
   template <class S>
-  [[gnu::noinline]] static V any_chunk(const S& scene, std::size_t start, std::size_t end, const R* numbers, R* logs,
-                                       std::size_t n) {
+  [[gnu::flatten, gnu::noinline]] static V weigh(const S& scene, std::size_t start, std::size_t end) {
     const S here = scene;
     const std::conditional_t<std::is_trivially_copyable_v<M>, M, const M&> model = scene.model;
     V most(kNothing);
     for (std::size_t j = start; j < end; j += kLanes) {
-      lanes::ReadyDraw<V> draw(numbers, j - start);
-      V l = here.move(model, j, draw).log_weight;
-      if constexpr (S::kWeighs) {
-        l = usable(l);
-        if (j + kLanes > n) l = lanes::select(leading_lanes(n - j), l, V(kNothing));
-        l.store(logs + j);
-        most = lanes::max(most, l);
-      }
+      V l = here.log_weight(model, j);
+      if (__builtin_expect(j + kLanes > here.particles, 0)) l = leading(l, here.particles - j);
+      l.store(here.logs + j);
+      most = lanes::max(l, most);
     }
     return most;
   }
 
   /// Particles of a block whose draws are made at a time: what is made ahead is to stay in the first-level cache.
-  template <Source kSource>
-  std::size_t chunk_of() const {
-    return patterns_[static_cast<std::size_t>(kSource)].normal.size() * sizeof(R) <= 16 ? kBlock : kBlock / 4;
+  static std::size_t chunk_of(const lanes::DrawPattern& pattern) {
+    return pattern.normal.size() * sizeof(R) <= 16 ? kBlock : kBlock / 4;
   }
 
-  /// The first `count` lanes.
-  static MOTE_INLINE lanes::Mask<R> leading_lanes(std::size_t count) {
+  /// The first `count` lanes; nothing in the others.
+  static MOTE_INLINE V leading(const V& l, std::size_t count) {
     alignas(64) std::array<R, kLanes> lane{};
     for (std::size_t i = 0; i < kLanes; ++i) lane[i] = i < count ? R(1) : R(0);
-    return V(0) < V::load(lane.data());
+    return lanes::select(V(0) < V::load(lane.data()), l, V(kNothing));
   }
-  static MOTE_INLINE V leading(const V& v, std::size_t count) { return lanes::select(leading_lanes(count), v, V(0)); }
 
   /// What moving a vector of particles needs, in one place.
   template <Source kSource, Weights kWeights>
@@ -360,13 +293,10 @@ class BlockPass {
     Step t;
     std::span<const Row<V>> rows;
     double mass;
-    const R* logs;  ///< carried log weights
+    R* logs;                ///< log weights: carried ones are read, new ones written
+    std::size_t particles;  ///< of the block
     ColumnPointers<R, kD> from, to;
 
-    struct Moved {
-      V log_weight;  ///< as computed: it may be NaN or infinite
-      V first;       ///< component 0
-    };
     template <class F>
     static MOTE_INLINE void each_component(const State& state, const F& f) {
       if constexpr (kD > 0) {
@@ -375,11 +305,15 @@ class BlockPass {
         for (std::size_t d = 0; d < state.size(); ++d) f(d);
       }
     }
+    MOTE_INLINE State loaded(const M& model_here, const ColumnPointers<R, kD>& columns, std::size_t j) const {
+      auto state = blank_state<V>(model_here);
+      each_component(state, [&](std::size_t d) { state[d] = V::load(columns[d] + j); });
+      return state;
+    }
     /// Moves the particles from j on.
     template <class D>
-    MOTE_INLINE Moved move(const M& model_here, std::size_t j, D& draw) const {
-      auto before = blank_state<V>(model_here);
-      each_component(before, [&](std::size_t d) { before[d] = V::load(from[d] + j); });
+    MOTE_INLINE void move(const M& model_here, std::size_t j, D& draw) const {
+      const State before = loaded(model_here, from, j);
       const auto x = [&] {
         if constexpr (kSource == Source::kProposal)
           return proposal.template propose<V>(model_here, t, before, rows, draw);
@@ -387,16 +321,24 @@ class BlockPass {
         if constexpr (kSource == Source::kPrior) return model_here.template initial<V>(draw);
         if constexpr (kSource == Source::kStay) return before;
       }();
-      each_component(before, [&](std::size_t d) { x[d].store(to[d] + j); });
-      if constexpr (!kWeighs) return {V(0), x[0]};
+      each_component(x, [&](std::size_t d) {
+        x[d].store(to[d] + j);
+        lanes::prefetch(to[d] + j + kBlock);
+      });
+    }
+    /// Log weights of the particles from j on, as computed: they may be NaN or infinite.
+    MOTE_INLINE V log_weight(const M& model_here, std::size_t j) const {
+      const State x = loaded(model_here, to, j);
       // at least one row, and the first outside the loop: what it computes from parameters alone leaves both loops
       V l = model_here.template log_likelihood<V>(t, x, rows[0]);
       for (std::size_t k = 1; k < rows.size(); ++k) l = l + model_here.template log_likelihood<V>(t, x, rows[k]);
-      if constexpr (kSource == Source::kProposal && !std::is_same_v<G, Prior>)
+      if constexpr (kSource == Source::kProposal && !std::is_same_v<G, Prior>) {
+        const State before = loaded(model_here, from, j);
         l = usable(l) + usable(model_here.template log_transition<V>(t, x, before) -
                                proposal.template log_density<V>(model_here, t, x, before, rows));
+      }
       if constexpr (kWeights == Weights::kCarried) l = l + (V::load(logs + j) - V(mass));
-      return {l, x[0]};
+      return l;
     }
   };
 
@@ -407,14 +349,13 @@ class BlockPass {
 
   /// Weights of one block from their logarithms, about the largest; sums of weights and states.
   template <Weights kWeights>
-  MOTE_INLINE void sum(std::size_t b, R top, const R* logs, R* weights, const ColumnPointers<R, kD>& x) {
+  void sum(std::size_t b, R top, R* logs, R* weights, const ColumnPointers<R, kD>& x) {
     constexpr bool kWeighs = kWeights == Weights::kFresh || kWeights == Weights::kCarried;
     const std::size_t n = size_of(b);
-    WeightSums block;
-    block.shift = kWeighs                       ? std::ceil(static_cast<double>(top) * std::numbers::log2e)
-                  : kWeights == Weights::kEqual ? 0
-                                                : sums_.shift(b);
-    if (kWeighs && !(top > kNothing)) {
+    const double shift = kWeighs                       ? std::ceil(static_cast<double>(top) * std::numbers::log2e)
+                         : kWeights == Weights::kEqual ? 0
+                                                       : sums_.shift(b);
+    if (kWeighs && top == kNothing) {
       std::fill(weights, weights + kBlock, R(0));
       sums_.set(b, {-kInfinity, 0, 0});
       return;
@@ -423,40 +364,63 @@ class BlockPass {
       std::fill(weights, weights + n, R(1));
       std::fill(weights + n, weights + (n + kLanes - 1) / kLanes * kLanes, R(0));
     }
-    const V shift(-block.shift);
+    Sums all;
+    if (spreads_)
+      sums<true, kWeighs>(logs, shift, n, weights, x, all);
+    else
+      sums<false, kWeighs>(logs, shift, n, weights, x, all);
+    const WeightSums block{shift, lanes::sum(all.weight), lanes::sum(all.square)};
+    if constexpr (kWeighs)
+      if (!std::isfinite(block.weight)) return sum<kWeights>(b, cleaned(logs, n), logs, weights, x);
+    sums_.set(b, block);
+    for (std::size_t d = 0; d < kTogether; ++d) sums_.set(b, d, component_sums(all.components[d], x[d], weights, n));
+    for (std::size_t d = kTogether; d < x.size(); ++d) {
+      Centred other(x[d], spreads_);
+      for (std::size_t j = 0; j < n; j += kLanes) other.template add<true>(V::load(weights + j), V::load(x[d] + j));
+      sums_.set(b, d, component_sums(other, x[d], weights, n));
+    }
+  }
+
+  /// Makes usable log weights of a block's; the largest.
+  [[gnu::noinline]] static R cleaned(R* logs, std::size_t n) {
+    V most(kNothing);
+    for (std::size_t j = 0; j < n; j += kLanes) {
+      const V l = usable(V::load(logs + j));
+      l.store(logs + j);
+      most = lanes::max(most, l);
+    }
+    return lanes::largest(most);
+  }
+
+  /// Components that are summed up together with the weights.
+  static constexpr std::size_t kTogether = kD <= 4 ? kD : 0;
+  struct Sums {
+    V weight{0}, square{0};
+    std::array<Centred, kTogether> components;
+  };
+  template <bool kSpread, bool kWeighs>
+  [[gnu::flatten, gnu::noinline]] static void sums(const R* logs, double to_one, std::size_t n, R* weights,
+                                                   const ColumnPointers<R, kD>& x, Sums& result) {
+    const V shift(-to_one);
     const V log2e(std::numbers::log2e);
-    V s(0);
-    V ss(0);
-    Centred first(x[0]);
-    first.centre_at(V::load(x[0]));
+    const auto columns = x;
+    Sums all;  // in registers: what is returned lives in memory
+    for (std::size_t d = 0; d < kTogether; ++d) all.components[d] = Centred(columns[d], kSpread);
     for (std::size_t j = 0; j < n; j += kLanes) {
       V w;
       if constexpr (kWeighs) {
         w = lanes::exp2_weight(lanes::fma(V::load(logs + j), log2e, shift));
         w.store(weights + j);
+        lanes::prefetch(weights + j + kBlock);
       } else {
         w = V::load(weights + j);
       }
-      s = s + w;
-      ss = lanes::fma(w, w, ss);
-      first.add(w, V::load(x[0] + j));
+      all.weight = all.weight + w;
+      all.square = lanes::fma(w, w, all.square);
+      lanes::unrolled<kTogether>(
+          [&](std::size_t d) { all.components[d].template add<kSpread>(w, V::load(columns[d] + j)); });
     }
-    block.weight = lanes::sum(s);
-    block.square = lanes::sum(ss);
-    sums_.set(b, block);
-    sums_.set(b, 0, first.sums(weights, n));
-    other_components(b, weights, x);
-  }
-
-  /// Sums of the components after the first.
-  MOTE_INLINE void other_components(std::size_t b, const R* weights, const ColumnPointers<R, kD>& x) {
-    const std::size_t n = size_of(b);
-    for (std::size_t d = 1; d < x.size(); ++d) {
-      Centred other(x[d]);
-      other.centre_at(V::load(x[d]));
-      for (std::size_t j = 0; j < n; j += kLanes) other.add(V::load(weights + j), V::load(x[d] + j));
-      sums_.set(b, d, other.sums(weights, n));
-    }
+    result = all;
   }
 
   M model_;
@@ -466,7 +430,6 @@ class BlockPass {
   Totals totals_;
   std::vector<Row<V>> rows_;
   std::array<lanes::DrawPattern, 4> patterns_;  // by source
-  double expected_ = 0;                         // log2 scale in which the next weights are tried
 };
 
 }  // namespace HWY_NAMESPACE

@@ -14,16 +14,4 @@ std::optional<Isa> best_isa() {
   return {};
 }
 
-std::string_view name_of(Isa isa) {
-  switch (isa) {
-    case Isa::kSse4:
-      return "sse4";
-    case Isa::kAvx2:
-      return "avx2";
-    case Isa::kAvx512:
-      return "avx512";
-  }
-  return "";
-}
-
 }  // namespace mote

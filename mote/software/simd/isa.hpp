@@ -2,7 +2,6 @@
 /// Instruction sets of x86-64 that the SIMD engine is compiled for.
 
 #include <optional>
-#include <string_view>
 
 namespace mote {
 
@@ -14,7 +13,5 @@ enum class Isa {
 
 /// The widest of them that this processor has, if any.
 std::optional<Isa> best_isa();
-
-std::string_view name_of(Isa isa);
 
 }  // namespace mote

@@ -112,6 +112,12 @@ class SurvivorStream {
   static constexpr std::size_t kLanes = lanes::kWidth<R>;
   using Whole = std::conditional_t<std::is_same_v<R, float>, __m512i, __m256i>;
 
+  /// Asks for what the next block's scan reads from j on.
+  MOTE_INLINE void fetch_ahead(std::size_t j) const {
+    lanes::prefetch(weights_ + j + kBlock);
+    for (std::size_t d = 0; d < columns_.size(); ++d) lanes::prefetch(columns_[d] + j + kBlock);
+  }
+
   /// Inclusive sums along the lanes.
   static MOTE_INLINE auto prefix(const R* from) {
     const __m512i zero = _mm512_setzero_si512();
@@ -156,6 +162,7 @@ class SurvivorStream {
       __m512 carry = _mm512_setzero_ps();
       std::size_t size = size_;
       for (std::size_t j = start; j < start + n; j += 16) {
+        fetch_ahead(j);
         const __m512 sums = prefix(weights + j);
         const __m512 through = _mm512_add_ps(sums, carry);
         carry = _mm512_add_ps(carry, _mm512_permutexvar_ps(top, sums));
@@ -189,6 +196,7 @@ class SurvivorStream {
       __m512d carry = _mm512_setzero_pd();
       std::size_t size = size_;
       for (std::size_t j = start; j < start + n; j += 8) {
+        fetch_ahead(j);
         const __m512d sums = prefix(weights + j);
         const __m512d through = _mm512_add_pd(sums, carry);
         carry = _mm512_add_pd(carry, _mm512_permutexvar_pd(top, sums));
