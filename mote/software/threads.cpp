@@ -15,9 +15,9 @@
 namespace mote {
 namespace {
 
-constexpr std::size_t kLeastShare = 8;  // blocks: some ten microseconds of work, a few times what a start costs
-constexpr std::size_t kLeastPiece = 4;  // blocks taken at a time: what the others may wait for in the end
-constexpr std::size_t kApart = 128;     // bytes: two lines, because processors fetch them in pairs
+constexpr std::size_t kLeastShare = 16;  // blocks: 20 us of work or more, several times what waking a thread costs
+constexpr std::size_t kLeastPiece = 4;   // blocks taken at a time: what the others may wait for in the end
+constexpr std::size_t kApart = 128;      // bytes: two lines, because processors fetch them in pairs
 constexpr std::chrono::microseconds kAwake{100};
 
 /// Waits until `word` is no longer `old`, awake at first, then asleep; what it is now. Whoever else wants the core gets

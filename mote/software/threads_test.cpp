@@ -46,7 +46,7 @@ std::vector<int> visits(std::size_t threads, std::size_t cores, std::size_t bloc
 TEST(Crew, DoesEveryBlockOnce) {
   for (const std::size_t cores : {1U, 2U, 5U})
     for (const std::size_t threads : {1U, 2U, 3U, 8U})
-      for (const std::size_t blocks : {0U, 1U, 15U, 16U, 17U, 98U, 977U})
+      for (const std::size_t blocks : {0U, 1U, 31U, 32U, 33U, 98U, 977U})
         EXPECT_EQ(visits(threads, cores, blocks, 20), std::vector<int>(blocks, 20))
             << threads << " threads, " << cores << " cores, " << blocks << " blocks";
 }
@@ -66,8 +66,8 @@ TEST(Crew, CallsWithOneDeskComeOneAfterTheOther) {
 TEST(Crew, FewBlocksAreNotWorthAThread) {
   const Crew crew(4, 4);
   EXPECT_EQ(crew.shares(1), 1U);
-  EXPECT_EQ(crew.shares(15), 1U);
-  EXPECT_EQ(crew.shares(16), 2U);
+  EXPECT_EQ(crew.shares(31), 1U);
+  EXPECT_EQ(crew.shares(32), 2U);
   EXPECT_EQ(crew.shares(1000), 4U);
 }
 
