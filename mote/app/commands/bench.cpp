@@ -7,11 +7,11 @@
 #include "mote/app/bench/publication.hpp"
 #include "mote/app/commands/command.hpp"
 #include "mote/app/commands/particle_list.hpp"
-#include "mote/app/commands/plan_options.hpp"
 #include "mote/app/files/output.hpp"
 #include "mote/app/terminal/progress.hpp"
 #include "mote/app/terminal/signals.hpp"
 #include "mote/app/terminal/suggestion.hpp"
+#include "mote/software/threads.hpp"
 
 namespace mote {
 namespace {

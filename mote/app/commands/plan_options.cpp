@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <sched.h>
 
 #include "mote/filter/particles.hpp"
+#include "mote/software/threads.hpp"
 
 namespace mote {
 namespace {
@@ -64,11 +64,6 @@ ChainOptions chain_from(const Arguments& arguments, FilterKind filter) {
 }
 
 }  // namespace
-
-std::size_t cores() {
-  cpu_set_t set;
-  return sched_getaffinity(0, sizeof set, &set) == 0 ? static_cast<std::size_t>(CPU_COUNT(&set)) : 1;
-}
 
 std::vector<OptionSpec> plan_options() {
   const std::string filter = "Filter";

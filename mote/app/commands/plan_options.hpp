@@ -11,9 +11,6 @@ namespace mote {
 /// Options of filters, in the order of the help.
 std::vector<OptionSpec> plan_options();
 
-/// Cores that this process may use: the default of --threads.
-std::size_t cores();
-
 /// The plan that the options ask for, checked.
 ///
 /// error   Refusal (kWrongUse) naming the option; what this version does not have yet is refused by name

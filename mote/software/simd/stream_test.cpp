@@ -35,11 +35,11 @@ namespace mote {
 namespace {
 
 /// Allocations of twenty steps, after as many to get used to them.
-std::size_t allocations_of(const SelectionOptions& selection) {
+std::size_t allocations_of(const SelectionOptions& selection, std::size_t particles = 10000, std::size_t threads = 1) {
   const Bearings model;
-  Stream stream(
-      std::make_unique<VectorImportanceFilter<Bearings, float>>(model, 10000, 1, selection, OnCollapse::kKeep, 1),
-      model.states(), model.columns());
+  Stream stream(std::make_unique<VectorImportanceFilter<Bearings, float>>(model, particles, 1, selection,
+                                                                          OnCollapse::kKeep, threads),
+                model.states(), model.columns());
   auto row = blank_row(model);
   row.values[0] = 0.8;
   std::size_t before = 0;
@@ -52,6 +52,8 @@ std::size_t allocations_of(const SelectionOptions& selection) {
 }
 
 TEST(Stream, AllocatesNothingWhileItRuns) { EXPECT_EQ(allocations_of({}), 0U); }
+
+TEST(Stream, AllocatesNothingOnSeveralThreads) { EXPECT_EQ(allocations_of({}, 100000, 3), 0U); }
 
 TEST(Stream, TwinAResamplerThatListsAncestorsIsCaught) { EXPECT_GT(allocations_of({find_scheme("alias"), 1, 1}), 0U); }
 
