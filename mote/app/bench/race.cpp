@@ -13,7 +13,7 @@
 namespace mote::bench {
 namespace {
 
-constexpr std::size_t kLeastWork = 200'000;  // particle-steps of a turn
+constexpr std::size_t kLeastWork = 2'000'000;  // particle-steps of a turn
 
 double seconds_on(Clock clock) {
   timespec now{};
