@@ -172,7 +172,7 @@ class Crew::Workers {
       seats_[desk].failure = std::current_exception();
     }
   }
-  void call_task(std::size_t desk, const Piece& piece) { task_.call(task_.work, desk, piece.first, piece.last); }
+  void call_task(std::size_t desk, const Piece& piece) const { task_.call(task_.work, desk, piece.first, piece.last); }
 
   Task task_;
   std::vector<Pile> piles_;
