@@ -8,6 +8,11 @@ double Confidence::score(double response, double lost_share) const {
   return 0.5 * std::clamp(response / usual_, 0.0, 1.0) + 0.5 * std::max(0.0, 1 - 2 * lost_share);
 }
 
+double Confidence::weight(double score) const {
+  const double share = std::clamp((score - options_.hidden) / (options_.full - options_.hidden), 0.0, 1.0);
+  return share * share;
+}
+
 Sighting Confidence::note(double response, double lost_share) {
   const double now = score(response, lost_share);
   if (!(now >= options_.hidden)) {
@@ -18,7 +23,7 @@ Sighting Confidence::note(double response, double lost_share) {
   if (now < options_.learn) return Sighting::kUnsure;
   ++sure_;
   const double rate = std::max(options_.usual_rate, 0.5 / (1.0 + sure_));
-  usual_ += rate * (response - usual_);
+  usual_ += weight(now) * rate * (response - usual_);
   return Sighting::kSure;
 }
 

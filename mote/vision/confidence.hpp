@@ -5,7 +5,8 @@ namespace mote::vision {
 
 struct ConfidenceOptions {
   double learn = 0.55;       ///< score from which a frame is learnt
-  double hidden = 0.47;      ///< score below which the target is taken to be hidden
+  double full = 0.8;         ///< score from which a frame is learnt at the full rate
+  double hidden = 0.5;       ///< score below which the target is taken to be hidden
   int patience = 4;          ///< hidden frames after which the target is lost
   double found = 0.6;        ///< score from which a place shows the lost target again
   double near = 0.5;         ///< response needed for that near where it was lost, in usual responses
@@ -28,6 +29,10 @@ class Confidence {
   Confidence(const ConfidenceOptions& options, double response) : options_(options), usual_(kFlattery * response) {}
 
   double score(double response, double lost_share) const;
+  /// How much a frame teaches, in [0, 1]: what is half hidden is learnt slowly.
+  ///
+  ///   weight = ((score - hidden) / (full - hidden))^2, cut at 0 and 1
+  double weight(double score) const;
   /// Notes a frame's sighting; a sure one moves the usual response.
   Sighting note(double response, double lost_share);
   /// Notes that the target was found again, or one more frame without it.

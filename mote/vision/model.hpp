@@ -21,7 +21,7 @@ struct Motion {
   double place = 0.05;    ///< of the centre, in geometric means of the sides
   double speed = 0.02;    ///< of the velocity, likewise, per frame; above 0: second order
   double damping = 0.8;   ///< velocity kept from frame to frame
-  double size = 0.02;     ///< of the logarithm of both sides together
+  double size = 0.010;    ///< of the logarithm of both sides together
   double aspect = 0.003;  ///< of the logarithm of one side against the other
   double angle = 0.01;    ///< rad
   double skew = 0.005;

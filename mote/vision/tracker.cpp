@@ -179,7 +179,7 @@ void Tracker::follow(const View& view, Track& track) {
   const Sighting sighting = confidence_->note(response, lost_share);
   if (sighting == Sighting::kHidden) return restart({pose_}, after_doubt());  // the pose stays
   track.pose = estimated;
-  if (sighting == Sighting::kSure) learn(view, estimated);
+  if (sighting == Sighting::kSure) learn(view, estimated, confidence_->weight(track.score));
   if (adapt(sighting)) return;
   const Stopwatch watch(times.select);
   filter_->select(t_, track.report);
@@ -198,11 +198,11 @@ bool Tracker::adapt(Sighting sighting) {
   return true;
 }
 
-void Tracker::learn(const View& view, const Pose& pose) {
+void Tracker::learn(const View& view, const Pose& pose, double weight) {
   const Box box = box_of(pose, first_);
-  place_.learn(view, box, options_.rates.place);
-  extent_.learn(view, box, options_.rates.extent);
-  appearance_->learn(patch_at(pose));
+  place_.learn(view, box, weight * options_.rates.place);
+  extent_.learn(view, box, weight * options_.rates.extent);
+  appearance_->learn(patch_at(pose), weight);
 }
 
 }  // namespace mote::vision

@@ -29,7 +29,7 @@ enum class MotionKind {
 };
 
 struct LearningRates {
-  double place = 0.015, extent = 0.015;  ///< of the filters, a frame
+  double place = 0.015, extent = 0.01;  ///< of the filters, a frame
 };
 
 struct TrackerOptions {
@@ -80,7 +80,7 @@ class Tracker {
   bool search(const View& view, std::span<const Box> candidates);
   Peak best_place(const View& view, std::span<const Box> candidates);
   void follow(const View& view, Track& track);
-  void learn(const View& view, const Pose& pose);
+  void learn(const View& view, const Pose& pose, double weight);
   bool adapt(Sighting sighting);
   std::size_t after_doubt() const { return (options_.adapt ? 2 : 1) * options_.plan.particles; }
   Pose estimate() const;
