@@ -162,10 +162,10 @@ class MetropolisFilter final : public Filter {
         const auto x = proposal_.template propose<R>(model_, t, before, y, draw);
         if (j < from) continue;  // drawn again only to keep the block's stream in step
         proposals_.write(j, x);
-        log_weights_[j] = Weight::template log_ratio<R>(model_, proposal_, t, x, k, set_, y, scratch) - log_parent +
-                          log_likelihood<R>(model_, t, x, y);
+        log_weights_[j] = Weight::template log_ratio<R>(model_, proposal_, t, x, k, set_, y, scratch) - log_parent;
       }
     }
+    weigh<M, R>(model_, t, y, proposals_, log_weights_, from);
   }
 
   struct Parent {

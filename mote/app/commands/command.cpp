@@ -241,7 +241,7 @@ Arguments arguments_from(const std::string& where, const std::vector<OptionSpec>
   return bound.arguments(where, where);
 }
 
-int run_program(int count, char** words) {
+int run_program(int count, char** words, const std::vector<Command>& commands_known) {
   occupy_closed_streams();
   let_writes_fail();
   CLI::App program("mote: particle filters, from the model to the machine", "mote");
@@ -251,11 +251,10 @@ int run_program(int count, char** words) {
   program.get_formatter()->column_width(38);
   std::vector<std::unique_ptr<Bound>> commands;
   std::vector<std::string> names;
-  for (Command command :
-       {models_command(), simulate_command(), run_command(), compare_command(), bench_command(), reproduce_command()}) {
+  for (const Command& command : commands_known) {
     commands.push_back(std::make_unique<Bound>());
     names.push_back(command.name);
-    commands.back()->command = std::move(command);
+    commands.back()->command = command;
     bind(program, *commands.back());
   }
   const auto asked = [&]() -> const Bound* {

@@ -1,6 +1,7 @@
 #pragma once
 /// Commands are data: one list of options gives the command line, its help and its checks.
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -66,7 +67,7 @@ struct Command {
   std::string name, summary;
   std::vector<PositionalSpec> positionals;
   std::vector<OptionSpec> options;
-  ExitCode (*run)(const Arguments& arguments);
+  std::function<ExitCode(const Arguments&)> run;
   std::string footer;
 };
 
@@ -83,7 +84,11 @@ Command compare_command();
 Command bench_command();
 Command reproduce_command();
 
-/// Parses and runs: what main() returns.
-int run_program(int count, char** words);
+/// `mote track`, performed by `track`: the program mote-track has the tracker, mote hands its words over to it.
+Command track_command(std::function<ExitCode(const Arguments&)> track);
+Command train_command(std::function<ExitCode(const Arguments&)> train);
+
+/// Parses and runs one of the commands: what main() returns.
+int run_program(int count, char** words, const std::vector<Command>& commands_known);
 
 }  // namespace mote
