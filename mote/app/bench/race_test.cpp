@@ -39,7 +39,7 @@ Task noted_task(std::vector<std::string>& turns) {
 
 TEST(Race, TakesTurnsAfterAWarmUp) {
   std::vector<std::string> turns;
-  const Outcome outcome = race(noted_task(turns), rules_of({1000}, 2));
+  const Outcome outcome = race(noted_task(turns), rules_of({2000}, 2));
   EXPECT_EQ(turns, (std::vector<std::string>{"a", "b", "a", "b", "a", "b"}));
   ASSERT_EQ(outcome.results.size(), 2U);
   EXPECT_EQ(outcome.results[1].rounds.size(), 2U);
@@ -50,7 +50,7 @@ TEST(Race, TakesTurnsAfterAWarmUp) {
 TEST(Race, RepeatsShortRunsWithinATurn) {
   std::vector<std::string> turns;
   race(noted_task(turns), rules_of({50}, 1));
-  EXPECT_EQ(turns.size(), 2 + 2 * 4U) << "4 runs of 50 000 particle-steps";
+  EXPECT_EQ(turns.size(), 2 + 2 * 40U) << "40 runs of 50 000 particle-steps";
 }
 
 TEST(Race, NeverTimesAWrongAnswer) {
@@ -75,7 +75,7 @@ TEST(Race, LeavesOutWhoCannotRun) {
   std::vector<std::string> turns;
   Task task = noted_task(turns);
   task.entrants[0].why_not = "it is ill";
-  const Outcome outcome = race(task, rules_of({1000}, 1));
+  const Outcome outcome = race(task, rules_of({2000}, 1));
   ASSERT_EQ(outcome.absent.size(), 1U);
   EXPECT_EQ(outcome.absent[0].why, "it is ill");
   EXPECT_EQ(outcome.results.size(), 1U);
