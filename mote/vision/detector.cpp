@@ -30,6 +30,7 @@ Detector Detector::people() {
   detector.keep_w_ = 0.56;
   detector.keep_h_ = 0.8;
   detector.threshold_ = 0.3;
+  detector.least_height_ = 480;
   return detector;
 }
 
@@ -49,8 +50,8 @@ Detector Detector::from_file(const std::string& path) {
 }
 
 std::vector<Detection> Detector::detect(const cv::Mat& frame) const {
-  constexpr double kLeastHeight = 480;  // px: smaller frames are enlarged, at most twice
-  const double enlarge = std::clamp(kLeastHeight / frame.rows, 1.0, 2.0);
+  // smaller frames are enlarged, at most twice
+  const double enlarge = std::clamp(least_height_ / frame.rows, 1.0, 2.0);
   cv::Mat seen;
   cv::resize(frame, seen, {}, enlarge, enlarge, cv::INTER_LINEAR);
   std::vector<cv::Rect> places;

@@ -43,6 +43,7 @@ class Detector {
   cv::HOGDescriptor hog_;
   double keep_w_ = 1, keep_h_ = 1;  // of the descriptor's window
   double threshold_ = 0;
+  double least_height_ = 0;  // of frames, px: standing people may be smaller than the descriptor's window
 };
 
 /// The descriptor of square patches, 64 x 64 in blocks of 16 and cells of 8.

@@ -120,7 +120,8 @@ Peak Tracker::best_place(const View& view, std::span<const Box> candidates) {
   const int ny = windows(sight_->height, place_.reach_y() * box.h);
   for (int k = 0; k < std::min(nx * ny, kMostWindows); ++k, ++searched_) {
     const int window = searched_ % (nx * ny);
-    at((window % nx + 0.5) * sight_->width / nx, (window / nx + 0.5) * sight_->height / ny);
+    const int row = window / nx;
+    at((window % nx + 0.5) * sight_->width / nx, (row + 0.5) * sight_->height / ny);
   }
   return best;
 }

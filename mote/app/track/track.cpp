@@ -117,6 +117,7 @@ struct Outputs {
   OutputSet set;
   Output *boxes, *summary, *report;
   std::optional<Film> film;
+  std::optional<Screen> screen;
 
   Outputs(const Arguments& arguments, double rate) {
     for (const std::string name : {"--truth", "VIDEO"}) set.protect(arguments.text(name));
@@ -125,6 +126,19 @@ struct Outputs {
     report = set.open(arguments.text("--report"));
     if (arguments.given("--video")) film.emplace(arguments.text("--video"), rate);
     if (boxes != nullptr) boxes->write(boxes_header());
+    if (arguments.given("--show")) screen.emplace(arguments.where());
+  }
+  /// Writes and shows a frame that was tracked.
+  void add(const cv::Mat& frame, Pursuit& run) {
+    const std::size_t number = run.record().tracks.size();
+    const Track& track = run.record().tracks.back();
+    if (boxes != nullptr) boxes->write(boxes_line(number, track));
+    if (!film && !screen) return;
+    const auto& truth = run.record().truth;
+    const cv::Mat drawn =
+        annotated(frame, track, run.first(), number, number <= truth.size() ? &truth[number - 1] : nullptr);
+    if (film) film->add(drawn);
+    if (screen) screen->show(drawn);
   }
   void commit(const TrackRecord& record) {
     if (summary != nullptr) summary->write(summary_of(record).dump(2) + "\n");
@@ -134,6 +148,26 @@ struct Outputs {
     if (!set.on_standard_output()) print_summary(record);
   }
 };
+
+/// Tracks until the frames end, the program is stopped or a frame is bad; then says what was wrong, unless it was so
+/// from the start: what was tracked is to be written first.
+std::optional<Refusal> track_all(Frames& frames, Pursuit& run, Outputs& outputs, const std::atomic<bool>& stop) {
+  Progress progress("frames");
+  try {
+    while (!stop) {
+      const auto frame = frames.next();
+      if (!frame) break;
+      run.step(*frame);
+      outputs.add(*frame, run);
+      const std::size_t number = run.record().tracks.size();
+      progress.update(number, std::max(number, frames.count()));
+    }
+  } catch (const Refusal& refusal) {
+    if (run.record().tracks.empty()) throw;
+    return refusal;
+  }
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -149,35 +183,10 @@ ExitCode run_track(const Arguments& arguments) {
   const BoxFormat format = static_cast<BoxFormat>(arguments.choice("--truth-format", {"auto", "boxes", "otb", "tld"}));
   if (arguments.given("--truth"))
     run.record().truth = read_truth(arguments.text("--truth"), format, init ? &*init : nullptr);
-  std::optional<Screen> screen;
-  if (arguments.given("--show")) screen.emplace(arguments.where());
   const auto frames = open_frames(arguments.text("VIDEO"));
   Outputs outputs(arguments, frames->rate());
   for (const std::string& note : notes_on_unread(arguments, options.plan)) fmt::print(stderr, "{}\n", printable(note));
-  std::optional<Refusal> fault;
-  {
-    Progress progress("frames");
-    try {
-      while (!stop) {
-        const auto frame = frames->next();
-        if (!frame) break;
-        const Track& track = run.step(*frame);
-        const std::size_t number = run.record().tracks.size();
-        if (outputs.boxes != nullptr) outputs.boxes->write(boxes_line(number, track));
-        const auto& truth = run.record().truth;
-        if (outputs.film || screen) {
-          const cv::Mat drawn =
-              annotated(*frame, track, run.first(), number, number <= truth.size() ? &truth[number - 1] : nullptr);
-          if (outputs.film) outputs.film->add(drawn);
-          if (screen) screen->show(drawn);
-        }
-        progress.update(number, std::max(number, frames->count()));
-      }
-    } catch (const Refusal& refusal) {
-      if (run.record().tracks.empty()) throw;
-      fault = refusal;  // what was tracked so far is written first
-    }
-  }
+  std::optional<Refusal> fault = track_all(*frames, run, outputs, stop);
   if (stop)
     fault.emplace(ExitCode::kInterrupted, fmt::format("{}: interrupted after {} frames, which were written.",
                                                       arguments.where(), run.record().tracks.size()));
