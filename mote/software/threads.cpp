@@ -15,15 +15,18 @@
 namespace mote {
 namespace {
 
-constexpr std::size_t kLeastShare = 16;  // blocks: 20 us of work or more, several times what waking a thread costs
-constexpr std::size_t kLeastPiece = 4;   // blocks taken at a time: what the others may wait for in the end
-constexpr std::size_t kApart = 128;      // bytes: two lines, because processors fetch them in pairs
+constexpr std::size_t kLeastShare = 16;   // blocks: 20 us of work or more, several times what waking a thread costs
+constexpr std::size_t kLeastPiece = 4;    // blocks taken at a time: what the others may wait for in the end
+constexpr std::size_t kWorthWaking = 32;  // blocks a thread: below, what a step after a pause gains is not sure
+constexpr std::size_t kApart = 128;       // bytes: two lines, because processors fetch them in pairs
 constexpr std::chrono::microseconds kAwake{100};
+
+using Clock = std::chrono::steady_clock;
 
 /// Waits until `word` is no longer `old`, awake at first, then asleep; what it is now. Whoever else wants the core gets
 /// it.
 std::uint32_t changed(const std::atomic<std::uint32_t>& word, std::uint32_t old) {
-  const auto until = std::chrono::steady_clock::now() + kAwake;
+  const auto until = Clock::now() + kAwake;
   do {
     for (int k = 0; k < 32; ++k) {
       const std::uint32_t now = word.load(std::memory_order_acquire);
@@ -31,7 +34,7 @@ std::uint32_t changed(const std::atomic<std::uint32_t>& word, std::uint32_t old)
       _mm_pause();
     }
     std::this_thread::yield();
-  } while (std::chrono::steady_clock::now() < until);
+  } while (Clock::now() < until);
   word.wait(old, std::memory_order_acquire);
   return word.load(std::memory_order_acquire);
 }
@@ -102,14 +105,11 @@ class Crew::Workers {
   }
 
   void run(const Task& task) {
-    task_ = task;
-    for (std::size_t k = 0; k < task.shares; ++k)
-      piles_[k].lay(task.blocks * k / task.shares, task.blocks * (k + 1) / task.shares);
-    const std::size_t called = std::min(task.shares, seats_.size());
-    for (std::size_t k = 1; k < called; ++k) call(seats_[k]);
-    work(0);
-    for (std::size_t k = 1; k < called; ++k) finish(seats_[k]);
-    rethrow_failure();
+    if (pays(task))
+      share_out(task);
+    else
+      task.call(task.work, 0, 0, task.blocks);
+    rests_since_ = Clock::now();
   }
 
  private:
@@ -122,6 +122,22 @@ class Crew::Workers {
     std::exception_ptr failure;
     std::jthread thread;
   };
+
+  std::size_t called(const Task& task) const { return std::min(task.shares, seats_.size()); }
+  /// After a pause the workers sleep, and one that is woken may be queued behind its caller.
+  bool pays(const Task& task) const {
+    return task.blocks >= kWorthWaking * called(task) || Clock::now() - rests_since_ < kAwake;
+  }
+
+  void share_out(const Task& task) {
+    task_ = task;
+    for (std::size_t k = 0; k < task.shares; ++k)
+      piles_[k].lay(task.blocks * k / task.shares, task.blocks * (k + 1) / task.shares);
+    for (std::size_t k = 1; k < called(task); ++k) call(seats_[k]);
+    work(0);
+    for (std::size_t k = 1; k < called(task); ++k) finish(seats_[k]);
+    rethrow_failure();
+  }
 
   static void call(Seat& seat) {
     seat.word.store(seat.word.load(std::memory_order_relaxed) + kStates + kCalled);
@@ -174,6 +190,7 @@ class Crew::Workers {
   }
   void call_task(std::size_t desk, const Piece& piece) const { task_.call(task_.work, desk, piece.first, piece.last); }
 
+  Clock::time_point rests_since_ = Clock::now();
   Task task_;
   std::vector<Pile> piles_;
   std::vector<Seat> seats_;  // the first is the caller's

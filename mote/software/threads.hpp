@@ -12,8 +12,9 @@ std::size_t cores();
 /// K threads, the caller among them, and no more of them than there are cores. Blocks of work are cut into shares, one
 /// a thread; who is done takes over what others have not begun. What a block computes never depends on who does it.
 ///
-/// cost    between steps a thread stays awake for 100 us, then it sleeps. A thread that comes late, or never, delays
-///         nobody: the others have done its share by then. Only what it has begun is waited for
+/// cost    between steps a thread stays awake for 100 us, then it sleeps; a small step after a pause wakes nobody. A
+///         thread that comes late, or never, delays nobody: the others have done its share by then. Only what it has
+///         begun is waited for
 /// source  docs/decisions/0005-threads.md
 class Crew {
  public:

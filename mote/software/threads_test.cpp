@@ -135,6 +135,25 @@ TEST(Crew, WakesFromSleep) {
   }
 }
 
+/// The desks, a bit each, of one call for forty blocks. Who has a part of them waits for the other.
+unsigned desks_of(Crew& crew) {
+  std::atomic<unsigned> seen = 0;
+  crew.run(40, [&](std::size_t desk, std::size_t first, std::size_t last) {
+    seen |= 1U << desk;
+    if (last - first < 40) came_true([&] { return seen == 3U; });
+  });
+  return seen;
+}
+
+TEST(Crew, ASmallStepAfterAPauseIsTheCallers) {
+  Crew crew(2, 2);
+  for (int k = 0; k < 20; ++k) {
+    std::this_thread::sleep_for(1ms);
+    EXPECT_EQ(desks_of(crew), 1U);
+  }
+  EXPECT_TRUE(came_true([&] { return desks_of(crew) == 3U; }));  // one that follows at once is not
+}
+
 /// Share of a core that this process uses while it does nothing for 300 ms.
 template <class Worker>
 double idle_load(Worker&&) {
