@@ -11,8 +11,8 @@
 #include <benchmark/benchmark.h>
 #include <xsimd/xsimd.hpp>
 
-#include "mote/lanes/draws.hpp"
 #include "mote/lanes/functions.hpp"
+#include "mote/lanes/ready_draws.hpp"
 #include "mote/model/doa.hpp"
 #include "mote/model/ungm.hpp"
 

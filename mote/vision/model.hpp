@@ -8,6 +8,7 @@
 
 #include "mote/filter/particles.hpp"
 #include "mote/filter/propose.hpp"
+#include "mote/filter/weigh.hpp"
 #include "mote/software/threads.hpp"
 #include "mote/vision/appearance.hpp"
 #include "mote/vision/extent.hpp"
@@ -103,17 +104,17 @@ struct VisualModel {
   S log_likelihood(Step, const State<S>& x, const Row<S>&) const {
     return static_cast<S>(log_fit(*sight, as<double>(x)));
   }
-  /// Adds the log likelihoods of particles from `first` on, by all threads; the sums do not depend on them.
+  /// Adds the log likelihoods of particles from `first` on, by all threads; the sums do not depend on them. A particle
+  /// takes some microseconds, as long as a block of numbers, which a crew reckons with.
   template <class R>
   void weigh_all(Step t, Rows<R> rows, const Particles<R>& x, std::size_t first, std::span<double> log_weights) const {
-    constexpr std::size_t kShare = 8;  // particles that a thread takes at a time
     const Stopwatch watch(times->weigh);
     times->particles += x.size() - first;
-    crew->run((x.size() - first + kShare - 1) / kShare, [&](std::size_t, std::size_t from, std::size_t to) {
+    crew->run(x.size() - first, [&](std::size_t, std::size_t from, std::size_t to) {
       State<R> pose{};
-      for (std::size_t i = first + from * kShare; i < std::min(first + to * kShare, x.size()); ++i) {
+      for (std::size_t i = first + from; i < first + to; ++i) {
         x.read(i, pose);
-        for (const Row<R>& row : rows) log_weights[i] += usable(static_cast<double>(log_likelihood<R>(t, pose, row)));
+        log_weights[i] += mote::log_likelihood<R>(*this, t, pose, rows);
       }
     });
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mote/base/scan.hpp"
 #include "mote/software/reference.hpp"
 
 namespace mote::vision {
@@ -21,15 +22,13 @@ Motion noise_of(const TrackerOptions& options) {
 
 /// n poses of the weighted particles, systematically from the middle of each n-th of the weight.
 std::vector<Pose> survivors(const WeightedSet& set, std::size_t n) {
-  std::vector<Pose> poses;
+  const WeightScan scan(set.weights);
+  WeightScan::Walk walk(scan);
+  std::vector<Pose> poses(n);
   set.visit([&](const auto& particles) {
-    double below = 0;
-    for (std::size_t i = 0; i < set.size() && poses.size() < n; ++i) {
-      below += set.weights[i] / set.total;
-      Pose pose{};
-      for (std::size_t d = 0; d < kComponents; ++d) pose[d] = static_cast<double>(particles.component(d)[i]);
-      while (poses.size() < n && (static_cast<double>(poses.size()) + 0.5) / static_cast<double>(n) < below)
-        poses.push_back(pose);
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t i = walk.find((static_cast<double>(k) + 0.5) * scan.total() / static_cast<double>(n));
+      for (std::size_t d = 0; d < kComponents; ++d) poses[k][d] = static_cast<double>(particles.component(d)[i]);
     }
   });
   return poses;

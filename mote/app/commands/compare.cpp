@@ -100,16 +100,6 @@ void protect_inputs(OutputSet& outputs, const Arguments& arguments) {
     if (setting.starts_with("file=")) outputs.protect(setting.substr(5));
 }
 
-std::vector<std::string> names_in(const std::string& list) {
-  std::vector<std::string> names(1);
-  for (const char c : list)
-    if (c == ',')
-      names.emplace_back();
-    else
-      names.back() += c;
-  return names;
-}
-
 /// A comparison on one model, checked, ready to run; and the reference that was asked for as a plan.
 struct Prepared {
   Outcome outcome;
@@ -153,9 +143,10 @@ void compare_filters(const Arguments& arguments, Prepared& prepared, const std::
 ExitCode run_compare(const Arguments& arguments) {
   std::vector<std::string> notes;
   std::vector<Prepared> all;
-  for (const std::string& model : names_in(arguments.text("MODEL"))) {
+  const std::string models = arguments.text("MODEL");
+  for (const std::string_view model : parts_of(models, ',')) {
     notes.clear();  // each model's contenders give the same ones
-    all.push_back(prepare(arguments, model, notes));
+    all.push_back(prepare(arguments, std::string(model), notes));
   }
   OutputSet outputs;
   protect_inputs(outputs, arguments);

@@ -14,15 +14,10 @@ namespace {
 constexpr long long kLastTime = 2147483646;
 
 std::vector<std::string_view> fields_of(std::string_view line) {
-  std::vector<std::string_view> fields;
-  while (true) {
-    const std::size_t comma = line.find(',');
-    std::string_view field = trimmed(line.substr(0, comma));
+  std::vector<std::string_view> fields = parts_of(line, ',');
+  for (std::string_view& field : fields)
     if (field.size() >= 2 && field.front() == '"' && field.back() == '"') field = field.substr(1, field.size() - 2);
-    fields.push_back(field);
-    if (comma == std::string_view::npos) return fields;
-    line.remove_prefix(comma + 1);
-  }
+  return fields;
 }
 
 void check_header(const Table& table) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace mote {
 
@@ -32,5 +33,8 @@ std::optional<long long> integer_in(std::string_view text);
 
 /// The text without blanks at its ends.
 std::string_view trimmed(std::string_view text);
+
+/// The parts of a text between separators, each without blanks at its ends; one for a text without any.
+std::vector<std::string_view> parts_of(std::string_view text, char separator);
 
 }  // namespace mote

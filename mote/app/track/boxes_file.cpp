@@ -24,8 +24,8 @@ Refusal bad_line(const std::string& path, std::size_t line, const std::string& e
 }
 
 /// The four numbers of a line, separated by commas, blanks or tabs.
-std::array<double, 4> four_numbers(const std::string& path, std::size_t line, std::string text) {
-  const std::string given = text;
+std::array<double, 4> four_numbers(const std::string& path, std::size_t line, std::string_view given) {
+  std::string text(given);
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == ',' || c == '\t' || c == '\r' || c == ';'; }, ' ');
   std::array<double, 4> numbers{};
@@ -46,31 +46,16 @@ std::array<double, 4> four_numbers(const std::string& path, std::size_t line, st
 Box as_otb(const std::array<double, 4>& n) { return {n[0] - 1, n[1] - 1, n[2], n[3]}; }
 Box as_tld(const std::array<double, 4>& n) { return {n[0], n[1], n[2] - n[0], n[3] - n[1]}; }
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    lines.push_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  while (!lines.empty() && trimmed(lines.back()).empty()) lines.pop_back();
+std::vector<std::string_view> lines_of(std::string_view text) {
+  std::vector<std::string_view> lines = parts_of(text, '\n');
+  while (!lines.empty() && lines.back().empty()) lines.pop_back();
   return lines;
-}
-
-std::vector<std::string_view> fields_of(std::string_view line) {
-  std::vector<std::string_view> fields;
-  for (std::size_t at = 0; at <= line.size();) {
-    const std::size_t end = std::min(line.find(',', at), line.size());
-    fields.push_back(trimmed(line.substr(at, end - at)));
-    at = end + 1;
-  }
-  return fields;
 }
 
 /// Where the columns frame, x, y, w, h stand in a header.
 std::array<std::size_t, 5> columns_of(const std::string& path, std::string_view header) {
   const std::array<std::string_view, 5> names{"frame", "x", "y", "w", "h"};
-  const auto fields = fields_of(header);
+  const auto fields = parts_of(header, ',');
   std::array<std::size_t, 5> columns{};
   for (std::size_t k = 0; k < names.size(); ++k) {
     const auto found = std::find(fields.begin(), fields.end(), names[k]);
@@ -82,12 +67,12 @@ std::array<std::size_t, 5> columns_of(const std::string& path, std::string_view 
   return columns;
 }
 
-std::vector<Box> by_frame(const std::string& path, const std::vector<std::string>& lines) {
+std::vector<Box> by_frame(const std::string& path, const std::vector<std::string_view>& lines) {
   constexpr double kMostFrames = 1e7;
   const auto columns = columns_of(path, lines.front());
   std::vector<Box> boxes;
   for (std::size_t line = 2; line <= lines.size(); ++line) {
-    const auto fields = fields_of(lines[line - 1]);
+    const auto fields = parts_of(lines[line - 1], ',');
     std::array<double, 5> values{};
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const auto value = columns[k] < fields.size() ? number_in(fields[columns[k]]) : std::nullopt;
@@ -119,11 +104,11 @@ std::string boxes_line(std::size_t frame, const vision::Track& track) {
 
 std::vector<Box> read_truth(const std::string& path, BoxFormat format, const Box* init) {
   const std::string text = read_text(path);
-  const std::vector<std::string> lines = lines_of(text);
+  const std::vector<std::string_view> lines = lines_of(text);
   if (lines.empty())
     throw Refusal(ExitCode::kBadData,
                   {path, "", "a box a line", "an empty file", "Name the file with the true boxes."});
-  const bool headed = std::isalpha(static_cast<unsigned char>(lines.front().front())) != 0 &&
+  const bool headed = !lines.front().empty() && std::isalpha(static_cast<unsigned char>(lines.front().front())) != 0 &&
                       lines.front().find("rame") != std::string::npos;
   if (format == BoxFormat::kBoxes || (format == BoxFormat::kAuto && headed)) return by_frame(path, lines);
   std::vector<std::array<double, 4>> rows;

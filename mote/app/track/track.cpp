@@ -1,6 +1,6 @@
 #include "mote/app/track/track.hpp"
 
-#include <chrono>
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -31,11 +31,7 @@ std::optional<Box> box_from(const Arguments& arguments) {
   if (!arguments.given("--init")) return std::nullopt;
   const std::string given = arguments.text("--init");
   std::vector<double> numbers;
-  for (std::size_t at = 0; at <= given.size();) {
-    const std::size_t end = std::min(given.find(',', at), given.size());
-    numbers.push_back(number_in(trimmed(std::string_view(given).substr(at, end - at))).value_or(kNaN));
-    at = end + 1;
-  }
+  for (const std::string_view part : parts_of(given, ',')) numbers.push_back(number_in(part).value_or(kNaN));
   const auto finite = [](double n) { return std::isfinite(n); };
   if (numbers.size() != 4 || !std::all_of(numbers.begin(), numbers.end(), finite) || numbers[2] < 4 || numbers[3] < 4)
     throw Refusal(ExitCode::kWrongUse, {arguments.where(), "--init", "x,y,w,h in pixels, w and h at least 4",

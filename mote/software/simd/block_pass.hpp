@@ -6,23 +6,12 @@
 #include <optional>
 
 #include "mote/filter/weigh.hpp"
-#include "mote/lanes/draws.hpp"
 #include "mote/lanes/functions.hpp"
-#include "mote/software/simd/block_sums.hpp"
+#include "mote/lanes/ready_draws.hpp"
+#include "mote/software/simd/weighted_sums.hpp"
 
 namespace mote {
 inline namespace HWY_NAMESPACE {
-
-/// Pointers to the D components of something; D = 0: as many as are known at run time.
-template <class T, std::size_t kD>
-using ColumnPointers = std::conditional_t<kD == 0, std::vector<T*>, std::array<T*, kD>>;
-
-template <class T, std::size_t kD>
-ColumnPointers<T, kD> column_pointers(std::size_t dimensions) {
-  ColumnPointers<T, kD> all{};
-  if constexpr (kD == 0) all.resize(dimensions);
-  return all;
-}
 
 /// Components of a model's state, where the compiler knows them; else 0.
 template <class M>
@@ -197,6 +186,8 @@ class BlockPass {
 
  private:
   static constexpr R kNothing = -std::numeric_limits<R>::infinity();
+  /// Components that are summed up together with the weights.
+  static constexpr std::size_t kTogether = kD <= 4 ? kD : 0;
   /// Notes which draws a source takes for a particle; a proposal may take others when rows of another shape come.
   template <Source kSource>
   void note_pattern(const Particles<R>& like) {
@@ -208,40 +199,6 @@ class BlockPass {
     if constexpr (kSource == Source::kModel) model_.template next<V>(1, state, draw);
     if constexpr (kSource == Source::kPrior) model_.template initial<V>(draw);
     patterns_[static_cast<std::size_t>(kSource)] = draw.pattern();
-  }
-
-  /// Sums of one component about the block's first particle, or about 0 where no spread is asked for.
-  struct Centred {
-    V centre{0}, first{0}, second{0};
-
-    Centred() = default;
-    MOTE_INLINE Centred(const R* states, bool spread) : centre(spread && std::isfinite(states[0]) ? states[0] : R(0)) {}
-    template <bool kSpread>
-    MOTE_INLINE void add(const V& w, const V& states) {
-      if constexpr (kSpread) {
-        const V offset = states - centre;
-        const V moment = w * offset;
-        first = first + moment;
-        second = lanes::fma(moment, offset, second);
-      } else {
-        first = lanes::fma(w, states, first);
-      }
-    }
-  };
-  static ComponentSums component_sums(const Centred& sums, const R* states, const R* weights, std::size_t n) {
-    const ComponentSums all{lanes::first(sums.centre), lanes::sum(sums.first), lanes::sum(sums.second)};
-    return std::isfinite(all.first + all.second) ? all : careful_sums(all.centre, states, weights, n);
-  }
-  /// Leaves out particles without weight, whose states may be anything.
-  [[gnu::noinline]] static ComponentSums careful_sums(double centre, const R* states, const R* weights, std::size_t n) {
-    ComponentSums all{centre, 0, 0};
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!(weights[i] > 0)) continue;
-      const double offset = static_cast<double>(states[i]) - centre;
-      all.first += static_cast<double>(weights[i]) * offset;
-      all.second += static_cast<double>(weights[i]) * offset * offset;
-    }
-    return all;
   }
 
   /// Moves particles [start, end).
@@ -334,18 +291,13 @@ class BlockPass {
       for (std::size_t k = 1; k < rows.size(); ++k) l = l + model_here.template log_likelihood<V>(t, x, rows[k]);
       if constexpr (kSource == Source::kProposal && !std::is_same_v<G, Prior>) {
         const State before = loaded(model_here, from, j);
-        l = usable(l) + usable(model_here.template log_transition<V>(t, x, before) -
-                               proposal.template log_density<V>(model_here, t, x, before, rows));
+        l = usable_weights(l) + usable_weights(model_here.template log_transition<V>(t, x, before) -
+                                               proposal.template log_density<V>(model_here, t, x, before, rows));
       }
       if constexpr (kWeights == Weights::kCarried) l = l + (V::load(logs + j) - V(mass));
       return l;
     }
   };
-
-  /// A density as a weight may use it: NaN and +infinity count as zero.
-  static MOTE_INLINE V usable(const V& l) {
-    return lanes::select(l < V(std::numeric_limits<R>::infinity()), l, V(kNothing));
-  }
 
   /// Weights of one block from their logarithms, about the largest; sums of weights and states.
   template <Weights kWeights>
@@ -364,63 +316,21 @@ class BlockPass {
       std::fill(weights, weights + n, R(1));
       std::fill(weights + n, weights + (n + kLanes - 1) / kLanes * kLanes, R(0));
     }
-    Sums all;
+    VectorSums<R, kTogether> all;
     if (spreads_)
-      sums<true, kWeighs>(logs, shift, n, weights, x, all);
+      add_up_weighted<true, kWeighs>(logs, shift, n, weights, x, all);
     else
-      sums<false, kWeighs>(logs, shift, n, weights, x, all);
+      add_up_weighted<false, kWeighs>(logs, shift, n, weights, x, all);
     const WeightSums block{shift, lanes::sum(all.weight), lanes::sum(all.square)};
     if constexpr (kWeighs)
-      if (!std::isfinite(block.weight)) return sum<kWeights>(b, cleaned(logs, n), logs, weights, x);
+      if (!std::isfinite(block.weight)) return sum<kWeights>(b, clean_weights(logs, n), logs, weights, x);
     sums_.set(b, block);
-    for (std::size_t d = 0; d < kTogether; ++d) sums_.set(b, d, component_sums(all.components[d], x[d], weights, n));
+    for (std::size_t d = 0; d < kTogether; ++d) sums_.set(b, d, all.components[d].sums(x[d], weights, n));
     for (std::size_t d = kTogether; d < x.size(); ++d) {
-      Centred other(x[d], spreads_);
+      CentredSums<R> other(x[d], spreads_);
       for (std::size_t j = 0; j < n; j += kLanes) other.template add<true>(V::load(weights + j), V::load(x[d] + j));
-      sums_.set(b, d, component_sums(other, x[d], weights, n));
+      sums_.set(b, d, other.sums(x[d], weights, n));
     }
-  }
-
-  /// Makes usable log weights of a block's; the largest.
-  [[gnu::noinline]] static R cleaned(R* logs, std::size_t n) {
-    V most(kNothing);
-    for (std::size_t j = 0; j < n; j += kLanes) {
-      const V l = usable(V::load(logs + j));
-      l.store(logs + j);
-      most = lanes::max(most, l);
-    }
-    return lanes::largest(most);
-  }
-
-  /// Components that are summed up together with the weights.
-  static constexpr std::size_t kTogether = kD <= 4 ? kD : 0;
-  struct Sums {
-    V weight{0}, square{0};
-    std::array<Centred, kTogether> components;
-  };
-  template <bool kSpread, bool kWeighs>
-  [[gnu::flatten, gnu::noinline]] static void sums(const R* logs, double to_one, std::size_t n, R* weights,
-                                                   const ColumnPointers<R, kD>& x, Sums& result) {
-    const V shift(-to_one);
-    const V log2e(std::numbers::log2e);
-    const auto columns = x;
-    Sums all;  // in registers: what is returned lives in memory
-    for (std::size_t d = 0; d < kTogether; ++d) all.components[d] = Centred(columns[d], kSpread);
-    for (std::size_t j = 0; j < n; j += kLanes) {
-      V w;
-      if constexpr (kWeighs) {
-        w = lanes::exp2_weight(lanes::fma(V::load(logs + j), log2e, shift));
-        w.store(weights + j);
-        lanes::prefetch(weights + j + kBlock);
-      } else {
-        w = V::load(weights + j);
-      }
-      all.weight = all.weight + w;
-      all.square = lanes::fma(w, w, all.square);
-      lanes::unrolled<kTogether>(
-          [&](std::size_t d) { all.components[d].template add<kSpread>(w, V::load(columns[d] + j)); });
-    }
-    result = all;
   }
 
   M model_;
