@@ -8,4 +8,9 @@ namespace mote {
 /// error   Refusal (kOutsideTool) when that program is not beside this one or does not start; else never returns
 [[noreturn]] void hand_over_to_tracker(char** words);
 
+/// Becomes the program mote-mpi, which loads Open MPI.
+///
+/// error   as hand_over_to_tracker()
+[[noreturn]] void hand_over_to_team(char** words);
+
 }  // namespace mote
