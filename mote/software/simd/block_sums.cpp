@@ -72,8 +72,8 @@ Totals BlockSums::totals() const {
 }
 
 /// aligned_[d] = sum over the blocks of term(b, d), in the scale of the totals. The largest of the terms says where the
-/// fixed point is, so that none is too large or too small for it; infinity where one is not finite. A
-/// single block's terms are the sums.
+/// fixed point is, so that none is too large or too small for it; infinity where one is not finite. A single block's
+/// terms are the sums.
 template <class Term>
 void BlockSums::add_aligned(const Totals& totals, const Term& term) const {
   const auto each = [&](const auto& take) {
