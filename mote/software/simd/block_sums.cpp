@@ -56,7 +56,7 @@ Moments BlockSums::moments(const Totals& totals, std::size_t d) const {
 
 void BlockSums::map_children(const Totals& totals, double u, ChildMap& map) const {
   const std::size_t blocks = weights_.size();
-  map.position.resize(blocks);
+  map.position.resize(blocks + 1);
   map.children_per_weight.resize(blocks);
   map.first.resize(blocks + 1);
   const auto n = static_cast<double>(particles_);
@@ -69,6 +69,7 @@ void BlockSums::map_children(const Totals& totals, double u, ChildMap& map) cons
     map.first[b] = static_cast<std::uint32_t>(std::clamp(std::ceil(map.position[b]), 0.0, n));
     before += scale * weights_[b].weight;
   }
+  map.position[blocks] = before * per_weight - u;
   // the last children are the last block's that has weight, however the sums were rounded
   const auto all = static_cast<std::uint32_t>(particles_);
   map.first[blocks] = all;

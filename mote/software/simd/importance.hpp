@@ -119,6 +119,7 @@ class VectorImportanceFilter final : public Filter {
     Particles<R>& to = moves_house ? next_ : now_;
     AlignedVector<R>& weights = moves_house ? next_weights_ : weights_;
     crew_.run(pass_.blocks(), [&](std::size_t share, std::size_t first, std::size_t last) {
+      const lanes::SubnormalsAreZero fast;
       Desk& desk = desks_[share];
       if (parents_ == Parents::kMapped)
         desk.stream.begin(map_, now_, weights_.data(), static_cast<std::uint32_t>(first * kBlock));
