@@ -37,38 +37,81 @@ std::string what_collapsed(const Plan& plan) {
       plan.particles);
 }
 
+/// A filter on its way along a recording.
+class Journey {
+ public:
+  Journey(Filter& filter, const Plan& plan, const RunRequest& request)
+      : filter_(filter), request_(request), on_collapse_(plan.on_collapse) {
+    state_.record.plan = plan;
+    state_.record.states = request.states;
+    for (const Estimand& estimand : request.estimands) state_.record.function_labels.push_back(estimand.label);
+    if (request_.checkpoint != nullptr) request_.checkpoint->resume(keeper());
+  }
+
+  RunRecord along(const Recording& recording) {
+    RunRecord& record = state_.record;
+    while (record.rows.size() < recording.steps.size() && !stopped()) {
+      const ObservedStep& step = recording.steps[record.rows.size()];
+      if (!cross_gap_before(step.t)) break;
+      visit(step);
+      request_.progress(record.rows.size(), recording.steps.size());
+      step_done();
+    }
+    record.interrupted = record.rows.size() < recording.steps.size();
+    record.predicted_steps = static_cast<std::size_t>(state_.t);
+    if (record.interrupted && request_.checkpoint != nullptr) request_.checkpoint->stopped(keeper());
+    return std::move(record);
+  }
+
+ private:
+  bool stopped() const { return request_.stop != nullptr && request_.stop->load(); }
+
+  KeepRun keeper() {
+    return [this](Archive& archive) { archive(state_, filter_); };
+  }
+  void step_done() {
+    if (request_.checkpoint != nullptr) request_.checkpoint->step_done(keeper());
+  }
+
+  /// Predicts up to the step before t; false if told to stop on the way.
+  bool cross_gap_before(Step t) {
+    while (state_.t + 1 < t && !stopped()) {
+      const Stopwatch watch;
+      filter_.predict(++state_.t);
+      state_.record.step_seconds += watch.seconds();
+      step_done();
+    }
+    return !stopped();
+  }
+
+  void visit(const ObservedStep& step) {
+    const Stopwatch watch;
+    const Step t = ++state_.t;
+    const bool observed = !step.rows.empty();
+    const StepReport report = observed ? filter_.update(t, step.rows) : filter_.predict(t);
+    if (report.collapsed && on_collapse_ == OnCollapse::kStop)
+      throw Refusal(ExitCode::kCollapsed, fmt::format("{}: t = {}: the filter collapsed: {}", request_.where, t,
+                                                      what_collapsed(state_.record.plan)));
+    std::vector<EstimateRow>& rows = state_.record.rows;
+    rows.push_back(estimated(t, report, filter_, request_, scratch_));
+    state_.record.step_seconds += watch.seconds();
+    if (request_.dump) request_.dump(t, filter_.weighted());
+    const Stopwatch selection;
+    if (observed) filter_.select(t, rows.back().report);
+    state_.record.step_seconds += selection.seconds();
+  }
+
+  Filter& filter_;
+  const RunRequest& request_;
+  OnCollapse on_collapse_;
+  RunState state_;
+  std::vector<double> scratch_;
+};
+
 }  // namespace
 
 RunRecord run(Filter& filter, const Plan& plan, const Recording& recording, const RunRequest& request) {
-  RunRecord record;
-  record.plan = plan;
-  record.states = request.states;
-  for (const Estimand& estimand : request.estimands) record.function_labels.push_back(estimand.label);
-  std::vector<double> scratch;
-  Step t = 0;
-  const auto stopped = [&] { return request.stop != nullptr && request.stop->load(); };
-  for (std::size_t k = 0; k < recording.steps.size() && !stopped(); ++k) {
-    const ObservedStep& step = recording.steps[k];
-    Stopwatch watch;
-    while (t + 1 < step.t && !stopped()) filter.predict(++t);
-    if (stopped()) break;
-    ++t;
-    const bool observed = !step.rows.empty();
-    StepReport report = observed ? filter.update(t, step.rows) : filter.predict(t);
-    if (report.collapsed && plan.on_collapse == OnCollapse::kStop)
-      throw Refusal(ExitCode::kCollapsed,
-                    fmt::format("{}: t = {}: the filter collapsed: {}", request.where, t, what_collapsed(plan)));
-    record.rows.push_back(estimated(t, report, filter, request, scratch));
-    record.step_seconds += watch.seconds();
-    if (request.dump) request.dump(t, filter.weighted());
-    Stopwatch selection;
-    if (observed) filter.select(t, record.rows.back().report);
-    record.step_seconds += selection.seconds();
-    request.progress(k + 1, recording.steps.size());
-  }
-  record.interrupted = record.rows.size() < recording.steps.size();
-  record.predicted_steps = static_cast<std::size_t>(t);
-  return record;
+  return Journey(filter, plan, request).along(recording);
 }
 
 }  // namespace mote

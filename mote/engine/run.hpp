@@ -4,6 +4,7 @@
 #include <atomic>
 #include <functional>
 
+#include "mote/engine/checkpoint.hpp"
 #include "mote/engine/estimand.hpp"
 #include "mote/engine/run_record.hpp"
 
@@ -19,13 +20,17 @@ struct RunRequest {
   };                                                   ///< rows of the data
   std::function<void(Step, const WeightedSet&)> dump;  ///< empty: no dump
   const std::atomic<bool>* stop = nullptr;             ///< set by a signal
+  Checkpoint* checkpoint = nullptr;                    ///< where the run is kept between steps
 };
 
 /// Filters a recording: predicts across gaps, updates by each step's rows, estimates before selection.
 ///
 ///   the first row at t = k predicts k times from x_0; a step without observation is predicted only
 ///
-/// error   Refusal (kCollapsed) when a step collapses and the plan says stop
+/// A run with a checkpoint goes on where the one that was kept there ended; its record is that of an unbroken run but
+/// for the times.
+///
+/// error   Refusal (kCollapsed) when a step collapses and the plan says stop; what the checkpoint throws
 RunRecord run(Filter& filter, const Plan& plan, const Recording& recording, const RunRequest& request);
 
 }  // namespace mote

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "mote/base/archive.hpp"
 #include "mote/filter/estimate.hpp"
 #include "mote/model/model.hpp"
 
@@ -35,6 +36,11 @@ class Filter {
   virtual void select(Step t, StepReport& report) = 0;
   /// The weighted particles after predict() or update(), until select().
   virtual WeightedSet weighted() const = 0;
+  /// Writes or reads everything that the next step depends on, between steps: after select(), or after predict() where
+  /// nothing was observed. A filter of the same construction that has read goes on bit by bit as the one that wrote.
+  ///
+  /// error   ArchiveMismatch when what is read was written by a filter of another size
+  virtual void keep(Archive& archive) = 0;
   /// Mean and standard deviation of component d of that set; circular ones for an angle.
   virtual Moments moments(std::size_t d, bool angle) const { return component_moments(weighted(), d, angle); }
 

@@ -6,6 +6,7 @@
 
 #include <Eigen/Dense>
 
+#include "mote/base/archive.hpp"
 #include "mote/base/numbers.hpp"
 #include "mote/filter/dual.hpp"
 
@@ -17,6 +18,11 @@ struct Gaussian {
   Eigen::MatrixXd root;  // (D, K), any K
 
   Eigen::MatrixXd covariance() const { return root * root.transpose(); }
+  /// Writes or reads a law whose root is square.
+  void keep(Archive& archive) {
+    archive.fill(std::span(mean.data(), static_cast<std::size_t>(mean.size())));
+    archive.fill(std::span(root.data(), static_cast<std::size_t>(root.size())));
+  }
 };
 
 /// The lower-triangular square root with the same product: L L' = root root'.

@@ -112,6 +112,8 @@ class MetropolisFilter final : public Filter {
 
   WeightedSet weighted() const override { return {weighted_, weights_, total_}; }
 
+  void keep(Archive& archive) override { archive(set_); }
+
  private:
   static constexpr double kBurnInDistance = 0.01;  // total variation that `burn_in = auto` leaves
 

@@ -95,6 +95,8 @@ class KalmanFilter final : public Filter {
 
   WeightedSet weighted() const override { return {&*points_, weights_, static_cast<double>(weights_.size())}; }
 
+  void keep(Archive& archive) override { archive(law_); }
+
   const Gaussian& law() const { return law_; }
 
  private:

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mote/base/aligned.hpp"
+#include "mote/base/archive.hpp"
 #include "mote/model/model.hpp"
 
 namespace mote {
@@ -58,6 +59,11 @@ class Particles {
   void resize(std::size_t count) {
     count_ = count;
     for (auto& component : components_) component.resize(whole_blocks(count));
+  }
+
+  /// Writes or reads the particles; a set that reads has as many.
+  void keep(Archive& archive) {
+    for (std::size_t d = 0; d < dimensions(); ++d) archive.fill(component(d));
   }
 
  private:

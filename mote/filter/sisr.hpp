@@ -51,6 +51,11 @@ class ImportanceFilter final : public Filter {
 
   WeightedSet weighted() const override { return {&cloud_.x, cloud_.weights, total_}; }
 
+  void keep(Archive& archive) override {
+    archive(cloud_.x);
+    archive.fill(std::span(cloud_.log_weights));
+  }
+
  private:
   Draws draws(Step t) const { return {seed_, static_cast<std::uint32_t>(t)}; }
 

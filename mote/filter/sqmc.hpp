@@ -73,6 +73,11 @@ class QuasiFilter final : public Filter {
 
   WeightedSet weighted() const override { return {&cloud_.x, cloud_.weights, total_}; }
 
+  void keep(Archive& archive) override {
+    archive(cloud_.x, total_);
+    archive.fill(std::span(cloud_.weights));  // parents of the next step are chosen by them
+  }
+
  private:
   Draws draws(Step t) const { return {seed_, static_cast<std::uint32_t>(t)}; }
 

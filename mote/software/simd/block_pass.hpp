@@ -135,6 +135,8 @@ class BlockPass {
   void forget_scales() {
     for (std::size_t b = 0; b < blocks(); ++b) sums_.set(b, {0, 0, 0});
   }
+  /// Writes or reads the scales of the weights that the next pass may keep.
+  void keep(Archive& archive) { archive(sums_); }
   /// Adds up what the blocks of a pass have noted.
   void add_up() { totals_ = sums_.totals(); }
   /// Mean and standard deviation of component d of the last pass.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "mote/base/archive.hpp"
 #include "mote/filter/estimate.hpp"
 
 namespace mote {
@@ -18,6 +19,8 @@ struct ChildMap {
   std::vector<double> position;
   std::vector<std::uint32_t> first;
   std::vector<double> children_per_weight;  ///< by block: N over the total, in the block's own scale
+
+  void keep(Archive& archive) { archive(position, first, children_per_weight); }
 
   /// The block whose particles have child j.
   std::size_t block_of(std::uint32_t child) const;
@@ -59,6 +62,9 @@ class BlockSums {
   void set(std::size_t block, const WeightSums& sums) { weights_[block] = sums; }
   void set(std::size_t block, std::size_t d, const ComponentSums& sums) { components_[block * dimensions_ + d] = sums; }
   double shift(std::size_t block) const { return weights_[block].shift; }
+
+  /// Writes or reads the sums of the weights, which say the blocks' scales.
+  void keep(Archive& archive) { archive.fill(std::span(weights_)); }
 
   Totals totals() const;
   Moments moments(const Totals& totals, std::size_t d) const;

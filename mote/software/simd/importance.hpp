@@ -91,6 +91,13 @@ class VectorImportanceFilter final : public Filter {
     return {&now_, shown_, pass_.totals().weight};
   }
 
+  void keep(Archive& archive) override {
+    archive(now_, parents_, level_, mass_, pass_, map_, ancestors_);
+    archive.fill(std::span(weights_));
+    archive.fill(std::span(log_weights_));
+    if (parents_ == Parents::kListed) archive.fill(std::span(next_weights_));  // the children carry them
+  }
+
   Moments moments(std::size_t d, bool angle) const override {
     if (angle) return pass_.circular_moments(now_, d, [&](std::size_t b) { return weights_.data() + b * kBlock; });
     return pass_.moments(d);

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mote/engine/run.hpp"
+#include "mote/engine/checkpoint_laws.hpp"
 #include "mote/filter/sisr.hpp"
 #include "mote/model/bearings.hpp"
 #include "mote/model/doa.hpp"
@@ -201,6 +201,39 @@ TEST(VectorImportanceFilter, ThreadsChangeNoBit) {
     plan.threads = threads;
     EXPECT_EQ(distance(one, rows_of(model, *vectors(model, plan), plan, recording)), 0.0) << threads;
   }
+}
+
+/// What differs when a run is broken off and resumed; its filters alternate between one thread and two.
+template <class R, class M>
+std::string broken_promise(const M& model, const Plan& plan) {
+  Recording recording = recording_of(model);
+  recording.steps[5].rows.clear();
+  RunRequest request;
+  request.states = model.states();
+  std::size_t made = 0;
+  return laws::broken_promise(
+      [&] {
+        return std::make_unique<VectorImportanceFilter<M, R>>(model, plan.particles, plan.seed, plan.selection,
+                                                              plan.on_collapse, 1 + made++ % 2);
+      },
+      plan, recording, request);
+}
+
+TEST(VectorImportanceFilter, IsResumedBitByBit) {
+  for (const SelectionOptions& selection :
+       {SelectionOptions{}, SelectionOptions{.ess_threshold = 0.5}, SelectionOptions{.exponent = 0.5},
+        SelectionOptions{.scheme = find_scheme("residual"), .ess_threshold = 0.4, .exponent = 0.7},
+        SelectionOptions{.scheme = find_scheme("multinomial")}})
+    for (const OnCollapse policy : {OnCollapse::kKeep, OnCollapse::kReset}) {
+      Plan plan = plan_of(2500);
+      plan.selection = selection;
+      plan.on_collapse = policy;
+      EXPECT_EQ(broken_promise<double>(Ungm<1>{}, plan), "");
+      EXPECT_EQ(broken_promise<float>(Ungm<1>{}, plan), "");
+      EXPECT_EQ(broken_promise<double>(Doomed{}, plan), "");
+    }
+  EXPECT_EQ(broken_promise<double>(sixteen_states(), plan_of()), "");
+  EXPECT_EQ(broken_promise<double>(Bearings{}, plan_of(40000)), "");
 }
 
 TEST(VectorImportanceFilter, MeansAloneAreTheSameMeans) {

@@ -86,6 +86,8 @@ class VectorMetropolisFilter final : public Filter {
     return {weighted_, shown_, pass_.totals().weight};
   }
 
+  void keep(Archive& archive) override { archive(set_); }
+
   Moments moments(std::size_t d, bool angle) const override {
     if (angle) return pass_.circular_moments(*weighted_, d, [&](std::size_t b) { return weights_of(b); });
     return pass_.moments(d);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mote/engine/checkpoint_laws.hpp"
 #include "mote/filter/imh.hpp"
 #include "mote/model/bearings.hpp"
 #include "mote/model/local_level.hpp"
@@ -145,6 +146,31 @@ void expect_same_on_any_number_of_threads() {
 TEST(VectorMetropolis, ResultsDoNotDependOnThreads) {
   expect_same_on_any_number_of_threads<float>();
   expect_same_on_any_number_of_threads<double>();
+}
+
+template <class R>
+void expect_resumed(const Case& c, OnCollapse on_collapse) {
+  const Ungm<1> model;
+  Recording recording;
+  const auto rows = drawn_rows(model, 8);
+  for (Step t = 2; t <= 8; ++t) recording.steps.push_back({t, {rows[static_cast<std::size_t>(t) - 1]}});
+  recording.steps[2].rows.clear();
+  recording.steps[4].rows = {Row<double>::of({1e300})};
+  RunRequest request;
+  request.states = model.states();
+  Plan plan;
+  plan.on_collapse = on_collapse;
+  const auto make = [&] {
+    return std::make_unique<VectorMetropolisFilter<Ungm<1>, R>>(model, c.particles, 3, c.options, on_collapse, 1);
+  };
+  EXPECT_EQ(laws::broken_promise(make, plan, recording, request), "") << text(c);
+}
+TEST(VectorMetropolis, IsResumedBitByBit) {
+  for (const Case& c : cases())
+    for (const OnCollapse on_collapse : {OnCollapse::kKeep, OnCollapse::kReset}) {
+      expect_resumed<double>(c, on_collapse);
+      expect_resumed<float>(c, on_collapse);
+    }
 }
 
 // A row that no state explains, and one that is no number: all weights are zero.
