@@ -1,11 +1,12 @@
 #include "mote/vision/confidence.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace mote::vision {
 
-double Confidence::score(double response, double lost_share) const {
-  return 0.5 * std::clamp(response / usual_, 0.0, 1.0) + 0.5 * std::max(0.0, 1 - 2 * lost_share);
+double Confidence::score(double response, double log_density) const {
+  return 0.5 * std::clamp(response / usual_, 0.0, 1.0) + 0.5 * std::min(1.0, std::exp(log_density + 0.5));
 }
 
 double Confidence::weight(double score) const {
@@ -13,8 +14,8 @@ double Confidence::weight(double score) const {
   return share * share;
 }
 
-Sighting Confidence::note(double response, double lost_share) {
-  const double now = score(response, lost_share);
+Sighting Confidence::note(double response, double log_density) {
+  const double now = score(response, log_density);
   if (!(now >= options_.hidden)) {
     ++hidden_;
     return Sighting::kHidden;
@@ -32,12 +33,12 @@ void Confidence::note_search(bool found) {
   if (found) hidden_ = 0;
 }
 
-bool Confidence::is_found(double response, double lost_share, double distance) const {
+bool Confidence::is_found(double response, double log_density, double distance) const {
   constexpr double kSpread = 0.05;  // sides a frame that "near" grows by
   constexpr double kLeniency = 0.002;
   const bool near = distance < 1 + kSpread * gone_;
   const double needed = near ? options_.near : options_.far - kLeniency * std::min(gone_, 75);
-  return response >= needed * usual_ && score(response, lost_share) >= options_.found;
+  return response >= needed * usual_ && score(response, log_density) >= options_.hidden;
 }
 
 }  // namespace mote::vision

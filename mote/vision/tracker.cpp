@@ -132,7 +132,7 @@ bool Tracker::search(const View& view, std::span<const Box> candidates) {
   pose[kY] = best.y;
   look(view, pose);
   const double distance = std::hypot(best.x - pose_[kX], best.y - pose_[kY]) / std::sqrt(box_of(pose_, first_).area());
-  if (!confidence_->is_found(best.value, appearance_->lost_share(patch_at(pose)), distance)) return false;
+  if (!confidence_->is_found(best.value, appearance_->mean_log_density(patch_at(pose)), distance)) return false;
   pose_ = pose;
   restart({pose}, after_doubt());
   return true;
@@ -172,11 +172,11 @@ void Tracker::follow(const View& view, Track& track) {
   }
   const Pose estimated = estimate();
   track.cloud = centres_of(filter_->weighted());
-  const double lost_share =
-      track.report.collapsed || !is_sane(estimated) ? 1 : appearance_->lost_share(patch_at(estimated));
+  const double density =
+      track.report.collapsed || !is_sane(estimated) ? -kInfinity : appearance_->mean_log_density(patch_at(estimated));
   const double response = sight_->place.at(estimated[kX], estimated[kY]);
-  track.score = confidence_->score(response, lost_share);
-  const Sighting sighting = confidence_->note(response, lost_share);
+  track.score = confidence_->score(response, density);
+  const Sighting sighting = confidence_->note(response, density);
   if (sighting == Sighting::kHidden) return restart({pose_}, after_doubt());  // the pose stays
   track.pose = estimated;
   if (sighting == Sighting::kSure) learn(view, estimated, confidence_->weight(track.score));
