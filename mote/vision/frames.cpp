@@ -10,6 +10,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "mote/base/refusal.hpp"
+#include "mote/vision/container.hpp"
 #include "mote/vision/pattern.hpp"
 
 namespace mote::vision {
@@ -79,6 +80,7 @@ class Pictures final : public Frames {
     return sizes_.checked(std::move(frame), file);
   }
   std::size_t count() const override { return files_.size(); }
+  std::vector<std::string> files() const override { return files_; }
 
  private:
   std::vector<std::string> files_;
@@ -105,6 +107,7 @@ class Video final : public Frames {
     if (!first_.empty()) {
       std::swap(frame, first_);
     } else if (!capture_.read(frame) || frame.empty()) {
+      refuse_if_cut_short();
       return std::nullopt;
     }
     ++at_;
@@ -118,12 +121,33 @@ class Video final : public Frames {
     const double rate = capture_.get(cv::CAP_PROP_FPS);
     return rate > 0 && rate < 1000 ? rate : 25;
   }
+  std::vector<std::string> files() const override { return {path_}; }
+  std::string note() const override {
+    if (at_ >= count()) return "";
+    const std::string frames = std::to_string(count()) + (counts_ ? " frames" : " frames, which is a guess");
+    return path_ + " announces " + frames + ", and " + std::to_string(at_) + " could be decoded. The file is whole.";
+  }
 
  private:
+  /// A whole file may have fewer frames than it lists: empty ones, or some that its list of edits cuts out.
+  void refuse_if_cut_short() {
+    constexpr double kMayMiss = 0.1;  // of the frames
+    const Container container = container_of(path_);
+    counts_ = container.counts;
+    if (counts_ && at_ >= count()) return;
+    if (!container.cut && (!counts_ || static_cast<double>(at_) >= (1 - kMayMiss) * static_cast<double>(count())))
+      return;
+    throw bad(path_, "", container.cut ? "a whole video" : "the " + std::to_string(count()) + " frames that it lists",
+              (container.cut ? "a file cut short after " : "no more than ") + std::to_string(at_) +
+                  " frames that can be decoded",
+              "Fetch it again, or pass --frames " + std::to_string(at_) + ".");
+  }
+
   std::string path_;
   cv::VideoCapture capture_;
   cv::Mat first_;
   std::size_t at_ = 0;
+  bool counts_ = false;
   OneSize sizes_;
 };
 

@@ -61,6 +61,12 @@ TEST(Track, WritesBoxesVideoReportAndSummary) {
   EXPECT_LT(summary["centre_error_px"].get<double>(), 2);
   EXPECT_EQ(summary["frames"], 20);
   EXPECT_EQ(summary["lost_frames"], 0);
+  const auto& frame = summary["frame_ms"];
+  EXPECT_GT(frame["p50"].get<double>(), 0);
+  EXPECT_GE(frame["p99"].get<double>(), frame["p50"].get<double>());
+  EXPECT_GE(frame["max"].get<double>(), frame["p99"].get<double>());
+  for (const std::string stage : {"tp", "tw", "td"}) EXPECT_GT(summary["particle_us"][stage].get<double>(), 0) << stage;
+  EXPECT_GT(summary["particle_us"]["tw"].get<double>(), summary["particle_us"]["td"].get<double>());
   EXPECT_GT(video.read("v.avi").size(), 10000U);
   EXPECT_NE(video.read("r.html").find("Overlap with the truth"), std::string::npos);
 }
@@ -115,6 +121,38 @@ TEST(Track, WhatWasTrackedBeforeABadFrameIsWritten) {
   EXPECT_EQ(lines_of(video.read("b.csv")), 4U);
 }
 
+TEST(Track, TheFirstFramesOnly) {
+  const Video video(6);
+  const Ended ended = video.track("--init " + video.init + " --out b.csv --frames 3 --video out%d.png");
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(lines_of(video.read("b.csv")), 4U);
+  EXPECT_FALSE(video.read("out3.png").empty());
+  EXPECT_TRUE(video.read("out4.png").empty());
+  ASSERT_EQ(video.track("--init " + video.init + " --out all.csv --frames 100").code, 0);
+  EXPECT_EQ(lines_of(video.read("all.csv")), 7U);
+}
+
+TEST(Track, AVideoCutShortIsTrackedToItsEndAndRefused) {
+  const Video video(1);
+  {
+    vision::Film film(video.file("v.avi"), 25);
+    for (int k = 0; k < 12; ++k) film.add(video.stage.frame(pose_in(k)));
+    film.commit();
+  }
+  const auto path = video.path() / "v.avi";
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) * 2 / 3);
+  const std::string track = "mote track v.avi -n 100 --init " + video.init + " --out b.csv --summary s.json";
+  const Ended ended = video.shell(track);
+  EXPECT_EQ(ended.code, 3);
+  EXPECT_NE(ended.err.find("v.avi: expected a whole video, got a file cut short after "), std::string::npos)
+      << ended.err;
+  const auto frames = nlohmann::json::parse(video.read("s.json"))["frames"].get<std::size_t>();
+  EXPECT_GT(frames, 4U);
+  EXPECT_LT(frames, 12U);
+  EXPECT_EQ(lines_of(video.read("b.csv")), frames + 1);
+  EXPECT_EQ(video.shell(track + " --frames " + std::to_string(frames)).code, 0);
+}
+
 struct Case {
   std::string name, options;
   int code;
@@ -142,6 +180,19 @@ INSTANTIATE_TEST_SUITE_P(
              "at least half inside the frame of 320 x 240"},
         Case{"BoxNoNumbers", "f%03d.png --init 1,2,nan,4 --out b.csv", 2, "expected x,y,w,h in pixels"},
         Case{"BoxTooSmall", "f%03d.png --init 1,2,3,3 --out b.csv", 2, "at least 4"},
+        Case{"NoFrames", "f%03d.png --init 1,2,30,30 --frames 0", 2, "--frames: expected an integer from 1"},
+        Case{"OverAFrame", "f%03d.png --init 1,2,30,30 --out f002.png", 2, "a file that this command reads"},
+        Case{"PicturesOverFrames", "f%03d.png --init 1,2,30,30 --out b.csv --video f%03d.png", 2,
+             "f001.png: expected an output in a file of its own"},
+        Case{"PicturesOverAFolder", ". --init 1,2,30,30 --video ./f%03d.png", 2, "a file that this command reads"},
+        Case{"OverTheTruth", "f%03d.png --init 1,2,30,30 --truth truth.csv --report truth.csv", 2,
+             "truth.csv: expected an output in a file of its own"},
+        Case{"VideoOverTheTruth", "f%03d.png --init 1,2,30,30 --truth truth.csv --video truth.csv", 2,
+             "truth.csv: expected an output in a file of its own"},
+        Case{"TwoToOne", "f%03d.png --init 1,2,30,30 --out b.csv --summary ./b.csv", 2,
+             "the same file for two outputs"},
+        Case{"VideoAndReport", "f%03d.png --init 1,2,30,30 --report v.avi --video v.avi", 2,
+             "the same file for two outputs"},
         Case{"NoVideo", "none.mp4 --init 1,2,30,30 --out b.csv", 3, "none.mp4: expected a video file"},
         Case{"Corrupt", "truth.csv --init 1,2,30,30 --out b.csv", 3, "truth.csv: expected a video"},
         Case{"Gaussian", "f%03d.png --init 1,2,30,30 --filter ekf", 2, "a picture has no slope"},
@@ -152,6 +203,24 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"TruthLine", "f%03d.png --init 1,2,30,30 --truth f001.png", 3, "f001.png"},
         Case{"VideoNowhere", "f%03d.png --init 1,2,30,30 --video no/v.mp4", 6, "no/v.mp4"}),
     [](const auto& tested) { return tested.param.name; });
+
+TEST(Track, TheDetectorIsNotWrittenOver) {
+  const Video video(2);
+  video.shell("for i in $(seq 1765); do echo 0; done >d.txt");
+  const Ended ended = video.track("--detect --detector d.txt --out d.txt");
+  EXPECT_EQ(ended.code, 2) << ended.err;
+  EXPECT_NE(ended.err.find("a file that this command reads"), std::string::npos) << ended.err;
+}
+
+TEST(Train, PatchesAndScenesAreNotWrittenOver) {
+  const Video video(1);
+  cv::imwrite(video.file("p.png"), vision::testing::texture({128, 128}, 9, 1));
+  for (const std::string out : {"p.png", "f001.png"}) {
+    const Ended ended = video.shell("mote train --positives p.png --negatives p.png --scenes f%03d.png --out " + out);
+    EXPECT_EQ(ended.code, 2) << ended.err;
+    EXPECT_NE(ended.err.find("a file that this command reads"), std::string::npos) << ended.err;
+  }
+}
 
 TEST(Train, ADetectorOfSquaresFindsThem) {
   const Scratch scratch;

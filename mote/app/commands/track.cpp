@@ -27,6 +27,7 @@ Command track_command(std::function<ExitCode(const Arguments&)> track) {
       {"--init", "X,Y,W,H", "", "box of the target in the first frame, px, 0-based corner; or pass --detect", "Target"},
       {"--detect", "", "", "find targets by a detector, at the start and when one is lost for long", "Target"},
       {"--detector", "NAME", "people", "people, or a file made by mote train", "Target"},
+      {"--frames", "K", "", "track the first K frames only [all]", "Target"},
       {"--out", "FILE", "", "boxes as CSV, a line a frame; - is standard output [none]", "Output"},
       {"--summary", "FILE", "", "figures of the run as JSON [none]", "Output"},
       {"--video", "FILE", "", "annotated video (.mp4, .avi), or pictures (out%04d.png) [none]", "Output"},
