@@ -210,12 +210,55 @@ TEST(Track, TheDetectorIsNotWrittenOver) {
   const Ended ended = video.track("--detect --detector d.txt --out d.txt");
   EXPECT_EQ(ended.code, 2) << ended.err;
   EXPECT_NE(ended.err.find("a file that this command reads"), std::string::npos) << ended.err;
+        Case{"NoDisplayToDrawOn", "f%03d.png --show --out b.csv", 5, "--show: expected a display, got none"},
 }
 
 TEST(Train, PatchesAndScenesAreNotWrittenOver) {
   const Video video(1);
   cv::imwrite(video.file("p.png"), vision::testing::texture({128, 128}, 9, 1));
   for (const std::string out : {"p.png", "f001.png"}) {
+TEST(Track, ADisplayThatOpensNoWindowIsRefused) {
+  const Video video(2);
+  const Ended ended = video.shell("DISPLAY=:4321 mote track f%03d.png --show --out b.csv");
+  EXPECT_EQ(ended.code, 5) << ended.err;
+  EXPECT_NE(ended.err.find("--show: expected a display, got one that opens no window."), std::string::npos)
+      << ended.err;
+}
+
+/// A display without a screen, with a mouse that draws from (60, 90) of the window over 48 x 40 pixels, then a key.
+std::string with_mouse(const std::string& key, const std::string& track) {
+  return "Xvfb -displayfd 7 -screen 0 640x480x24 7>display 2>log & server=$!; trap 'kill $server' EXIT; "
+         "for i in $(seq 100); do [ -s display ] && break; sleep 0.1; done; export DISPLAY=:$(cat display); "
+         "{ window=$(timeout 20 xdotool search --sync --onlyvisible --name 'mote track' | tail -n 1); sleep 1; "
+         "xdotool mousemove --window $window 60 90 mousedown 1; sleep 0.2; xdotool mousemove_relative 20 20; sleep "
+         "0.2; "
+         "xdotool mousemove_relative 28 20; sleep 0.2; xdotool mouseup 1; sleep 0.2; xdotool key " +
+         key + "; } >>log 2>&1 & timeout 60 " + track;
+}
+
+TEST(Track, TheMouseDrawsTheBox) {
+  if (std::system("command -v Xvfb >/dev/null && command -v xdotool >/dev/null") != 0)
+    GTEST_SKIP() << "Xvfb or xdotool is not installed.";
+  const Video video(2);
+  const std::string track = "'" MOTE_PROGRAM "' track f%03d.png --show --out - -n 100";
+  const Ended drawn = video.shell(with_mouse("Return", track));
+  ASSERT_EQ(drawn.code, 0) << drawn.err;
+  double x = 0;
+  double y = 0;
+  double w = 0;
+  double h = 0;
+  const std::string first = drawn.out.substr(drawn.out.find('\n') + 1);
+  ASSERT_EQ(std::sscanf(first.c_str(), "1,%lf,%lf,%lf,%lf,", &x, &y, &w, &h), 4) << drawn.out;
+  EXPECT_NEAR(w, 48, 1);
+  EXPECT_NEAR(h, 40, 1);
+  EXPECT_NEAR(x, 60, 4);
+  EXPECT_TRUE(drawn.out.starts_with("frame,x,y,w,h,")) << drawn.out;
+  EXPECT_NE(drawn.err.find("The box was drawn: --init "), std::string::npos) << drawn.err;
+  const Ended off = video.shell(with_mouse("c", track));
+  EXPECT_EQ(off.code, 2) << off.err;
+  EXPECT_NE(off.err.find("drawn with the mouse, got none. Pass --init x,y,w,h instead."), std::string::npos) << off.err;
+}
+
     const Ended ended = video.shell("mote train --positives p.png --negatives p.png --scenes f%03d.png --out " + out);
     EXPECT_EQ(ended.code, 2) << ended.err;
     EXPECT_NE(ended.err.find("a file that this command reads"), std::string::npos) << ended.err;

@@ -21,6 +21,8 @@ class TrackOutputs {
   TrackOutputs(const Arguments& arguments, const vision::Frames& frames, std::size_t most);
 
   /// Writes and shows the frame that was tracked last.
+  /// The live window; nullptr without --show.
+  const Screen* screen() const { return screen_ ? &*screen_ : nullptr; }
   void add(const cv::Mat& frame, Pursuit& run);
   void commit(const TrackRecord& record);
 

@@ -60,12 +60,17 @@ std::optional<Detector> detector_from(const Arguments& arguments, bool init) {
   if (!asked && arguments.given("--detector"))
     throw Refusal(ExitCode::kWrongUse,
                   {arguments.where(), "--detector", "--detect beside it", "none", "Pass --detect."});
-  if (!asked && !init)
+  if (!asked && !init && !arguments.given("--show"))
     throw Refusal(ExitCode::kWrongUse, {arguments.where(), "--init", "a first box, or --detect", "neither",
-                                        "Pass --init x,y,w,h or --detect."});
+                                        "Pass --init x,y,w,h or --detect, or --show to draw a box with the mouse."});
   if (!asked) return std::nullopt;
   const std::string name = arguments.text("--detector");
   return name == "people" ? Detector::people() : Detector::from_file(name);
+}
+
+/// The box that the user draws on the first frame.
+Box drawn_box(const Arguments& arguments, const Screen& screen) {
+  return screen.choose(open_frames(arguments.text("VIDEO"))->next().value());
 }
 
 /// How many frames are tracked at most.
@@ -105,16 +110,22 @@ ExitCode run_track(const Arguments& arguments) {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   cv::setNumThreads(1);  // the library's own threads share out the particles; nobody else's order of work counts
   const TrackerOptions options = options_from(arguments);
-  const std::optional<Box> init = box_from(arguments);
-  Pursuit run(arguments.where(), options, init, detector_from(arguments, init.has_value()));
+  std::optional<Box> init = box_from(arguments);
+  auto detector = detector_from(arguments, init.has_value());
+  const BoxFormat format = static_cast<BoxFormat>(arguments.choice("--truth-format", {"auto", "boxes", "otb", "tld"}));
+  const std::size_t most = most_frames(arguments);
+  const auto frames = open_frames(arguments.text("VIDEO"));
+  TrackOutputs outputs(arguments, *frames, most);
+  const bool drawn = !init && !detector;
+  if (drawn) init = drawn_box(arguments, *outputs.screen());
+  Pursuit run(arguments.where(), options, init, std::move(detector));
+  if (drawn)
+    run.record().notes.push_back(
+        fmt::format("The box was drawn: --init {},{},{},{}", init->x, init->y, init->w, init->h));
   run.record().video = arguments.text("VIDEO");
   run.record().command = arguments.command_line();
-  const BoxFormat format = static_cast<BoxFormat>(arguments.choice("--truth-format", {"auto", "boxes", "otb", "tld"}));
   if (arguments.given("--truth"))
     run.record().truth = read_truth(arguments.text("--truth"), format, init ? &*init : nullptr);
-  const auto frames = open_frames(arguments.text("VIDEO"));
-  const std::size_t most = most_frames(arguments);
-  TrackOutputs outputs(arguments, *frames, most);
   for (const std::string& note : notes_on_unread(arguments, options.plan)) fmt::print(stderr, "{}\n", printable(note));
   std::optional<Refusal> fault = track_all(*frames, most, run, outputs, stop);
   if (stop)
