@@ -25,13 +25,15 @@ Refusal bad(const std::string& where, const std::string& what, const std::string
 
 std::string text_of(cv::Size size) { return std::to_string(size.width) + " x " + std::to_string(size.height); }
 
-/// Refuses a frame that differs in size from the first.
-class OneSize {
+/// Frames of 8 bits; refuses one that differs in size from the first where it must not.
+class Inspection {
  public:
+  explicit Inspection(Sizes sizes) : sizes_(sizes) {}
+
   cv::Mat checked(cv::Mat frame, const std::string& where) {
     if (frame.depth() != CV_8U) frame.convertTo(frame, CV_8U, frame.depth() == CV_16U ? 1.0 / 256 : 255.0);
     if (frame.channels() == 2) cv::extractChannel(frame, frame, 0);
-    if (size_.empty()) size_ = frame.size();
+    if (size_.empty() || sizes_ == Sizes::kAny) size_ = frame.size();
     if (frame.size() != size_)
       throw bad(where, "", "a frame of " + text_of(size_) + " pixels as the first", text_of(frame.size()),
                 "Cut the video where its size changes.");
@@ -39,6 +41,7 @@ class OneSize {
   }
 
  private:
+  Sizes sizes_;
   cv::Size size_;
 };
 
@@ -69,7 +72,7 @@ bool name_before(const std::string& a, const std::string& b) {
 
 class Pictures final : public Frames {
  public:
-  explicit Pictures(std::vector<std::string> files) : files_(std::move(files)) {}
+  Pictures(std::vector<std::string> files, Sizes sizes) : files_(std::move(files)), inspection_(sizes) {}
 
   std::optional<cv::Mat> next() override {
     if (at_ == files_.size()) return std::nullopt;
@@ -77,7 +80,7 @@ class Pictures final : public Frames {
     cv::Mat frame = cv::imread(file, cv::IMREAD_UNCHANGED);
     if (frame.empty())
       throw bad(file, "", "a picture", "a file that cannot be decoded", "Remove it or convert it to PNG or JPEG.");
-    return sizes_.checked(std::move(frame), file);
+    return inspection_.checked(std::move(frame), file);
   }
   std::size_t count() const override { return files_.size(); }
   std::vector<std::string> files() const override { return files_; }
@@ -85,7 +88,7 @@ class Pictures final : public Frames {
  private:
   std::vector<std::string> files_;
   std::size_t at_ = 0;
-  OneSize sizes_;
+  Inspection inspection_;
 };
 
 /// FFmpeg tells standard error what it dislikes; the refusal says it better.
@@ -96,7 +99,8 @@ const std::string& quietly(const std::string& path) {
 
 class Video final : public Frames {
  public:
-  explicit Video(std::string path) : path_(std::move(path)), capture_(quietly(path_), cv::CAP_FFMPEG) {
+  Video(std::string path, Sizes sizes)
+      : path_(std::move(path)), capture_(quietly(path_), cv::CAP_FFMPEG), inspection_(sizes) {
     if (!capture_.isOpened() || !capture_.read(first_) || first_.empty())
       throw bad(path_, "", "a video with at least one frame", "a file that cannot be decoded",
                 "Convert it, for example to MP4.");
@@ -111,7 +115,7 @@ class Video final : public Frames {
       return std::nullopt;
     }
     ++at_;
-    return sizes_.checked(frame.clone(), path_ + ": frame " + std::to_string(at_));
+    return inspection_.checked(frame.clone(), path_ + ": frame " + std::to_string(at_));
   }
   std::size_t count() const override {
     const double frames = capture_.get(cv::CAP_PROP_FRAME_COUNT);
@@ -148,7 +152,7 @@ class Video final : public Frames {
   cv::Mat first_;
   std::size_t at_ = 0;
   bool counts_ = false;
-  OneSize sizes_;
+  Inspection inspection_;
 };
 
 bool is_picture(const fs::path& path) {
@@ -187,16 +191,16 @@ std::vector<std::string> by_pattern(const std::string& path, const Pattern& patt
 
 }  // namespace
 
-std::unique_ptr<Frames> open_frames(const std::string& path) {
+std::unique_ptr<Frames> open_frames(const std::string& path, Sizes sizes) {
   std::error_code unknown;
-  if (fs::is_directory(path, unknown)) return std::make_unique<Pictures>(in_folder(path));
+  if (fs::is_directory(path, unknown)) return std::make_unique<Pictures>(in_folder(path), sizes);
   if (!fs::exists(path, unknown)) {
-    if (const auto pattern = pattern_in(path)) return std::make_unique<Pictures>(by_pattern(path, *pattern));
+    if (const auto pattern = pattern_in(path)) return std::make_unique<Pictures>(by_pattern(path, *pattern), sizes);
     throw bad(path, "", "a video file, a folder of pictures or a pattern such as shot%04d.jpg", "nothing of that name",
               "Check the path.");
   }
-  if (is_picture(path)) return std::make_unique<Pictures>(std::vector<std::string>{path});
-  return std::make_unique<Video>(path);
+  if (is_picture(path)) return std::make_unique<Pictures>(std::vector<std::string>{path}, sizes);
+  return std::make_unique<Video>(path, sizes);
 }
 
 }  // namespace mote::vision

@@ -39,10 +39,16 @@ class Frames {
   Frames& operator=(Frames&&) = default;
 };
 
+/// Which sizes frames may have.
+enum class Sizes {
+  kOne,  ///< that of the first
+  kAny,  ///< each its own
+};
+
 /// Opens a video file, a folder (its pictures in the order of their names, numbers by value) or a pattern such as
 /// shot%04d.jpg (from its first number, 0 or 1, on).
 ///
 /// error   Refusal (kBadData) when there is nothing there, or no frame in it
-std::unique_ptr<Frames> open_frames(const std::string& path);
+std::unique_ptr<Frames> open_frames(const std::string& path, Sizes sizes = Sizes::kOne);
 
 }  // namespace mote::vision

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "mote/vision/detector.hpp"
 #include "mote/vision/drawing.hpp"
 #include "mote/vision/synthetic.hpp"
 #include "tests/app/program.hpp"
@@ -265,15 +266,50 @@ TEST(Track, TheMouseDrawsTheBox) {
   }
 }
 
-TEST(Train, ADetectorOfSquaresFindsThem) {
-  const Scratch scratch;
-  // targets: a bright square with a dark frame; others: texture
+/// A bright square with a dark rim on texture: the target; crossed out, what looks like one.
+cv::Mat sign_patch(bool crossed, unsigned seed) {
+  cv::Mat patch = vision::testing::texture({64, 64}, 9, seed);
+  cv::rectangle(patch, {12, 12, 40, 40}, cv::Scalar::all(240), cv::FILLED);
+  cv::rectangle(patch, {12, 12, 40, 40}, cv::Scalar::all(10), 4);
+  if (crossed) {
+    cv::line(patch, {14, 14}, {50, 50}, cv::Scalar::all(10), 4);
+    cv::line(patch, {14, 50}, {50, 14}, cv::Scalar::all(10), 4);
+  }
+  return patch;
+}
+
+cv::Mat mosaic_of_squares() {
   cv::Mat with(256, 512, CV_8UC3);
-  for (int k = 0; k < 32; ++k) {
-    cv::Mat patch = with(cv::Rect(k % 8 * 64, k / 8 * 64, 64, 64));
-    vision::testing::texture({64, 64}, 9, static_cast<unsigned>(k)).copyTo(patch);
-    cv::rectangle(patch, {12, 12, 40, 40}, {240, 240, 240}, cv::FILLED);
-    cv::rectangle(patch, {12, 12, 40, 40}, {10, 10, 10}, 4);
+  for (int k = 0; k < 32; ++k)
+    sign_patch(false, static_cast<unsigned>(k)).copyTo(with(cv::Rect(k % 8 * 64, k / 8 * 64, 64, 64)));
+  return with;
+}
+
+/// Texture with patches in a row, `scale` times their size.
+cv::Mat scene_with(bool crossed, int count, double scale, unsigned seed) {
+  const int side = static_cast<int>(std::lround(64 * scale));
+  cv::Mat scene = vision::testing::texture({side * count + 20, side + 20}, 9, seed);
+  for (int k = 0; k < count; ++k) {
+    cv::Mat patch;
+    cv::resize(sign_patch(crossed, seed + 100 + static_cast<unsigned>(k)), patch, {side, side});
+    patch.copyTo(scene(cv::Rect(10 + k * side, 10, side, side)));
+  }
+  return scene;
+}
+
+// claim    what scenes without targets show instead of them is learnt, whatever size and colours the scenes have
+// twin     the detector without scenes takes what is crossed out for targets
+TEST(Train, HardNegativesFromScenesOfAnySize) {
+  const Scratch scratch;
+  cv::imwrite(scratch.file("with.png"), mosaic_of_squares());
+  cv::imwrite(scratch.file("without.png"), vision::testing::texture({512, 512}, 9, 77));
+  std::filesystem::create_directory(scratch.path() / "scenes");
+  unsigned seed = 500;
+  for (const double scale : {0.4, 1.0, 1.5, 2.3}) {
+    cv::Mat scene = scene_with(true, 5, scale, seed++);
+    if (scale < 1) cv::cvtColor(scene, scene, cv::COLOR_BGR2GRAY);
+    if (scale > 2) cv::cvtColor(scene, scene, cv::COLOR_BGR2BGRA);
+    cv::imwrite(scratch.file("scenes/s" + std::to_string(seed) + ".png"), scene);
   }
   cv::imwrite(scratch.file("with.png"), with);
   cv::imwrite(scratch.file("without.png"), vision::testing::texture({512, 512}, 9, 77));
@@ -286,6 +322,24 @@ TEST(Train, ADetectorOfSquaresFindsThem) {
   ASSERT_EQ(tracked.code, 0) << tracked.err;
   std::stringstream lines(scratch.read("b.csv"));
   std::string line;
+  cv::imwrite(scratch.file("scenes/tiny.png"), vision::testing::texture({5, 300}, 2, 1));
+  const std::string train = "mote train --positives with.png --negatives without.png ";
+  ASSERT_EQ(scratch.shell(train + "--out plain.txt").code, 0);
+  const Ended ended = scratch.shell(train + "--scenes scenes --out hard.txt");
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(ended.out.find(" 0 of these hard negatives"), std::string::npos) << ended.out;
+  const auto found = [&](const std::string& detector, bool crossed) {
+    const auto all = vision::Detector::from_file(scratch.file(detector)).detect(scene_with(crossed, 5, 1.2, 900));
+    return all.size();
+  };
+  EXPECT_GE(found("plain.txt", true), 4U);
+  EXPECT_LE(found("hard.txt", true), 1U);
+  EXPECT_GE(found("hard.txt", false), 4U);
+}
+
+TEST(Train, ADetectorOfSquaresFindsThem) {
+  const Scratch scratch;
+  const cv::Mat with = mosaic_of_squares();
   std::getline(lines, line);
   std::getline(lines, line);
   double box[5];

@@ -19,7 +19,8 @@ ExitCode run_train(const Arguments& arguments) {
   for (const std::string name : {"--positives", "--negatives"})
     arguments.required(name, "a picture of 64 x 64 patches", fmt::format("Pass {} patches.png.", name));
   std::vector<std::unique_ptr<vision::Frames>> scenes;
-  for (const std::string& path : arguments.list("--scenes")) scenes.push_back(vision::open_frames(path));
+  for (const std::string& path : arguments.list("--scenes"))
+    scenes.push_back(vision::open_frames(path, vision::Sizes::kAny));
   OutputSet outputs;
   for (const std::string name : {"--positives", "--negatives"})
     for (const std::string& path : arguments.list(name)) outputs.protect(path);
