@@ -133,6 +133,14 @@ TEST(Track, TheFirstFramesOnly) {
   EXPECT_EQ(lines_of(video.read("all.csv")), 7U);
 }
 
+TEST(Track, ASheetOfFrames) {
+  const Video video(5);
+  const Ended ended = video.track("--init " + video.init + " --sheet s.png --sheet-frames 1,3,5,9 --report r.html");
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(cv::imread(video.file("s.png")).size(), cv::Size(3 * 320 + 8, 240));
+  EXPECT_NE(video.read("r.html").find("<img alt=\"Frames\" src=\"data:image/png;base64,"), std::string::npos);
+}
+
 TEST(Track, AVideoCutShortIsTrackedToItsEndAndRefused) {
   const Video video(1);
   {
@@ -194,30 +202,21 @@ INSTANTIATE_TEST_SUITE_P(
              "the same file for two outputs"},
         Case{"VideoAndReport", "f%03d.png --init 1,2,30,30 --report v.avi --video v.avi", 2,
              "the same file for two outputs"},
+        Case{"SheetEnding", "f%03d.png --init 1,2,30,30 --sheet s.gif", 2, "a name that ends in .png or .jpg"},
+        Case{"SheetFrames", "f%03d.png --init 1,2,30,30 --sheet s.png --sheet-frames 1,0", 2,
+             "numbers of frames from 1"},
         Case{"NoVideo", "none.mp4 --init 1,2,30,30 --out b.csv", 3, "none.mp4: expected a video file"},
         Case{"Corrupt", "truth.csv --init 1,2,30,30 --out b.csv", 3, "truth.csv: expected a video"},
         Case{"Gaussian", "f%03d.png --init 1,2,30,30 --filter ekf", 2, "a picture has no slope"},
         Case{"VectorEngine", "f%03d.png --init 1,2,30,30 --engine simd", 2, "--engine: expected reference"},
         Case{"NoDisplay", "f%03d.png --init 1,2,30,30 --show", 5, "--show: expected a display"},
+        Case{"NoDisplayToDrawOn", "f%03d.png --show --out b.csv", 5, "--show: expected a display, got none"},
         Case{"DetectorAlone", "f%03d.png --init 1,2,30,30 --detector people", 2, "--detect beside it"},
         Case{"NoDetector", "f%03d.png --detect --detector truth.csv", 3, "truth.csv: expected a detector"},
         Case{"TruthLine", "f%03d.png --init 1,2,30,30 --truth f001.png", 3, "f001.png"},
         Case{"VideoNowhere", "f%03d.png --init 1,2,30,30 --video no/v.mp4", 6, "no/v.mp4"}),
     [](const auto& tested) { return tested.param.name; });
 
-TEST(Track, TheDetectorIsNotWrittenOver) {
-  const Video video(2);
-  video.shell("for i in $(seq 1765); do echo 0; done >d.txt");
-  const Ended ended = video.track("--detect --detector d.txt --out d.txt");
-  EXPECT_EQ(ended.code, 2) << ended.err;
-  EXPECT_NE(ended.err.find("a file that this command reads"), std::string::npos) << ended.err;
-        Case{"NoDisplayToDrawOn", "f%03d.png --show --out b.csv", 5, "--show: expected a display, got none"},
-}
-
-TEST(Train, PatchesAndScenesAreNotWrittenOver) {
-  const Video video(1);
-  cv::imwrite(video.file("p.png"), vision::testing::texture({128, 128}, 9, 1));
-  for (const std::string out : {"p.png", "f001.png"}) {
 TEST(Track, ADisplayThatOpensNoWindowIsRefused) {
   const Video video(2);
   const Ended ended = video.shell("DISPLAY=:4321 mote track f%03d.png --show --out b.csv");
@@ -260,6 +259,18 @@ TEST(Track, TheMouseDrawsTheBox) {
   EXPECT_NE(off.err.find("drawn with the mouse, got none. Pass --init x,y,w,h instead."), std::string::npos) << off.err;
 }
 
+TEST(Track, TheDetectorIsNotWrittenOver) {
+  const Video video(2);
+  video.shell("for i in $(seq 1765); do echo 0; done >d.txt");
+  const Ended ended = video.track("--detect --detector d.txt --out d.txt");
+  EXPECT_EQ(ended.code, 2) << ended.err;
+  EXPECT_NE(ended.err.find("a file that this command reads"), std::string::npos) << ended.err;
+}
+
+TEST(Train, PatchesAndScenesAreNotWrittenOver) {
+  const Video video(1);
+  cv::imwrite(video.file("p.png"), vision::testing::texture({128, 128}, 9, 1));
+  for (const std::string out : {"p.png", "f001.png"}) {
     const Ended ended = video.shell("mote train --positives p.png --negatives p.png --scenes f%03d.png --out " + out);
     EXPECT_EQ(ended.code, 2) << ended.err;
     EXPECT_NE(ended.err.find("a file that this command reads"), std::string::npos) << ended.err;
@@ -311,17 +322,6 @@ TEST(Train, HardNegativesFromScenesOfAnySize) {
     if (scale > 2) cv::cvtColor(scene, scene, cv::COLOR_BGR2BGRA);
     cv::imwrite(scratch.file("scenes/s" + std::to_string(seed) + ".png"), scene);
   }
-  cv::imwrite(scratch.file("with.png"), with);
-  cv::imwrite(scratch.file("without.png"), vision::testing::texture({512, 512}, 9, 77));
-  const Ended ended = scratch.shell("mote train --positives with.png --negatives without.png --out d.txt");
-  ASSERT_EQ(ended.code, 0) << ended.err;
-  cv::Mat scene = vision::testing::texture({320, 240}, 9, 5);
-  with(cv::Rect(64, 64, 64, 64)).copyTo(scene(cv::Rect(150, 90, 64, 64)));
-  for (int k = 1; k < 4; ++k) cv::imwrite(scratch.file("s" + std::to_string(k) + ".png"), scene);
-  const Ended tracked = scratch.shell("mote track s%d.png --detect --detector d.txt --out b.csv -n 100");
-  ASSERT_EQ(tracked.code, 0) << tracked.err;
-  std::stringstream lines(scratch.read("b.csv"));
-  std::string line;
   cv::imwrite(scratch.file("scenes/tiny.png"), vision::testing::texture({5, 300}, 2, 1));
   const std::string train = "mote train --positives with.png --negatives without.png ";
   ASSERT_EQ(scratch.shell(train + "--out plain.txt").code, 0);
@@ -340,6 +340,17 @@ TEST(Train, HardNegativesFromScenesOfAnySize) {
 TEST(Train, ADetectorOfSquaresFindsThem) {
   const Scratch scratch;
   const cv::Mat with = mosaic_of_squares();
+  cv::imwrite(scratch.file("with.png"), with);
+  cv::imwrite(scratch.file("without.png"), vision::testing::texture({512, 512}, 9, 77));
+  const Ended ended = scratch.shell("mote train --positives with.png --negatives without.png --out d.txt");
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  cv::Mat scene = vision::testing::texture({320, 240}, 9, 5);
+  with(cv::Rect(64, 64, 64, 64)).copyTo(scene(cv::Rect(150, 90, 64, 64)));
+  for (int k = 1; k < 4; ++k) cv::imwrite(scratch.file("s" + std::to_string(k) + ".png"), scene);
+  const Ended tracked = scratch.shell("mote track s%d.png --detect --detector d.txt --out b.csv -n 100");
+  ASSERT_EQ(tracked.code, 0) << tracked.err;
+  std::stringstream lines(scratch.read("b.csv"));
+  std::string line;
   std::getline(lines, line);
   std::getline(lines, line);
   double box[5];

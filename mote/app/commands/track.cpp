@@ -32,6 +32,8 @@ Command track_command(std::function<ExitCode(const Arguments&)> track) {
       {"--out", "FILE", "", "boxes as CSV, a line a frame; - is standard output [none]", "Output"},
       {"--summary", "FILE", "", "figures of the run as JSON [none]", "Output"},
       {"--video", "FILE", "", "annotated video (.mp4, .avi), or pictures (out%04d.png) [none]", "Output"},
+      {"--sheet", "FILE", "", "some annotated frames side by side in one picture (.png, .jpg) [none]", "Output"},
+      {"--sheet-frames", "LIST", "1,4,8,12,16,20", "the frames of the sheet", "Output"},
       {"--report", "FILE", "", "report with plots, one HTML file [none]", "Output"},
       {"--show", "", "",
        "show the frames while they are tracked (needs a display); without --init and --detect, first draw the box",

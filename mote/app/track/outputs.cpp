@@ -7,6 +7,7 @@
 
 #include "mote/app/files/text.hpp"
 #include "mote/app/track/boxes_file.hpp"
+#include "mote/base/refusal.hpp"
 
 namespace mote {
 namespace {
@@ -56,6 +57,30 @@ void protect_inputs(OutputSet& set, const Arguments& arguments, const Frames& fr
   for (const std::string& file : frames.files()) set.protect(file);
 }
 
+/// The numbers of --sheet-frames.
+std::vector<std::size_t> sheet_frames(const Arguments& arguments) {
+  constexpr long long kMost = 1'000'000'000;
+  const std::string given = arguments.text("--sheet-frames");
+  std::vector<std::size_t> numbers;
+  for (const std::string_view part : parts_of(given, ',')) {
+    const auto number = integer_in(part);
+    if (!number || *number < 1 || *number > kMost)
+      throw Refusal(ExitCode::kWrongUse, {arguments.where(), "--sheet-frames", "numbers of frames from 1, by commas",
+                                          in_quotes(given), "Pass --sheet-frames 1,4,8,12,16,20."});
+    numbers.push_back(static_cast<std::size_t>(*number));
+  }
+  return numbers;
+}
+
+/// The format that a sheet's name asks for.
+std::string sheet_ending(const Arguments& arguments) {
+  const std::string path = arguments.text("--sheet");
+  for (const std::string ending : {".png", ".jpg"})
+    if (path.ends_with(ending)) return ending;
+  throw Refusal(ExitCode::kWrongUse, {arguments.where(), "--sheet", "a name that ends in .png or .jpg", in_quotes(path),
+                                      "Pass --sheet frames.png."});
+}
+
 }  // namespace
 
 TrackOutputs::TrackOutputs(const Arguments& arguments, const Frames& frames, std::size_t most) {
@@ -63,6 +88,11 @@ TrackOutputs::TrackOutputs(const Arguments& arguments, const Frames& frames, std
   boxes_ = set_.open(arguments.text("--out"));
   summary_ = set_.open(arguments.text("--summary"));
   report_ = set_.open(arguments.text("--report"));
+  sheet_file_ = set_.open(arguments.text("--sheet"));
+  if (sheet_file_ != nullptr) {
+    sheet_ending_ = sheet_ending(arguments);
+    sheet_.emplace(sheet_frames(arguments));
+  }
   if (arguments.given("--video")) {
     film_.emplace(arguments.text("--video"), frames.rate());
     claim_pictures(film_->pictures() ? std::min(most, frames.count()) : 1);
@@ -79,10 +109,12 @@ void TrackOutputs::add(const cv::Mat& frame, Pursuit& run) {
   const std::size_t number = run.record().tracks.size();
   const Track& track = run.record().tracks.back();
   if (boxes_ != nullptr) boxes_->write(boxes_line(number, track));
-  if (!film_ && !screen_) return;
+  const bool on_sheet = sheet_ && sheet_->wants(number);
+  if (!film_ && !screen_ && !on_sheet) return;
   const auto& truth = run.record().truth;
   const cv::Mat drawn =
       annotated(frame, track, run.first(), number, number <= truth.size() ? &truth[number - 1] : nullptr);
+  if (on_sheet) sheet_->add(number, drawn);
   if (film_) {
     if (film_->pictures()) claim_pictures(number);  // where the count was a guess
     film_->add(drawn);
@@ -91,8 +123,15 @@ void TrackOutputs::add(const cv::Mat& frame, Pursuit& run) {
 }
 
 void TrackOutputs::commit(const TrackRecord& record) {
+  report::Page page = track_page(record);
+  if (sheet_) {
+    const std::string picture = sheet_->picture(sheet_ending_);
+    if (!picture.empty()) page.pictures.push_back({"Frames", picture});
+    if (picture.empty()) fmt::print(stderr, "The sheet is empty: none of its frames was tracked.\n");
+    sheet_file_->write(picture);
+  }
   if (summary_ != nullptr) summary_->write(summary_of(record).dump(2) + "\n");
-  if (report_ != nullptr) report_->write(report::html(track_page(record)));
+  if (report_ != nullptr) report_->write(report::html(page));
   if (film_) film_->commit();
   set_.commit();
   if (!set_.on_standard_output()) print_summary(record);

@@ -9,6 +9,7 @@
 #include "mote/app/track/screen.hpp"
 #include "mote/vision/drawing.hpp"
 #include "mote/vision/frames.hpp"
+#include "mote/vision/sheet.hpp"
 
 namespace mote {
 
@@ -20,9 +21,9 @@ class TrackOutputs {
   /// error   Refusal (kWrongUse) when an output would go over a file that is read, or over another output
   TrackOutputs(const Arguments& arguments, const vision::Frames& frames, std::size_t most);
 
-  /// Writes and shows the frame that was tracked last.
   /// The live window; nullptr without --show.
   const Screen* screen() const { return screen_ ? &*screen_ : nullptr; }
+  /// Writes and shows the frame that was tracked last.
   void add(const cv::Mat& frame, Pursuit& run);
   void commit(const TrackRecord& record);
 
@@ -30,7 +31,9 @@ class TrackOutputs {
   void claim_pictures(std::size_t number);
 
   OutputSet set_;
-  Output *boxes_, *summary_, *report_;
+  Output *boxes_, *summary_, *report_, *sheet_file_;
+  std::string sheet_ending_;
+  std::optional<vision::Sheet> sheet_;
   std::optional<vision::Film> film_;
   std::size_t claimed_ = 0;  // pictures of the film
   std::optional<Screen> screen_;
