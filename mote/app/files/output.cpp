@@ -138,8 +138,7 @@ void OutputSet::protect(const std::string& path) {
   if (!path.empty()) inputs_.push_back(followed(path));
 }
 
-Output* OutputSet::open(const std::string& path) {
-  if (path.empty()) return nullptr;
+void OutputSet::claim(const std::string& path) {
   const std::string real = stream_named(path) == 1 ? "-" : followed(path);
   const auto among = [&](const std::vector<std::string>& all) {
     return !no_regular_file(real) && std::find(all.begin(), all.end(), real) != all.end();
@@ -151,6 +150,11 @@ Output* OutputSet::open(const std::string& path) {
     throw Refusal(ExitCode::kWrongUse, {path, "", "every output in a file of its own", "the same file for two outputs",
                                         "Name another file."});
   paths_.push_back(real);
+}
+
+Output* OutputSet::open(const std::string& path) {
+  if (path.empty()) return nullptr;
+  claim(path);
   outputs_.push_back(std::make_unique<Output>(path));
   return outputs_.back().get();
 }

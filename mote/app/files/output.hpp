@@ -46,6 +46,10 @@ class OutputSet {
  public:
   /// Keeps an input from being written over; nothing for an empty path.
   void protect(const std::string& path);
+  /// Takes a path for an output that somebody else opens.
+  ///
+  /// error   as open()
+  void claim(const std::string& path);
   /// Opens an output, or does nothing for an empty path and returns nullptr.
   ///
   /// error   Refusal (kWrongUse) when two outputs go to the same file, or one goes over an input

@@ -36,7 +36,7 @@ Pursuit::Pursuit(std::string where, TrackerOptions options, std::optional<Box> i
 const Track& Pursuit::step(const cv::Mat& frame) {
   const auto start = std::chrono::steady_clock::now();
   record_.tracks.push_back(tracker_ ? next(frame) : begin(frame));
-  record_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  record_.frame_seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   if (record_.tracks.back().report.collapsed && options_.plan.on_collapse == OnCollapse::kStop)
     throw Refusal(ExitCode::kCollapsed,
                   fmt::format("{}: frame {}: all particles have weight zero. Pass --on-collapse keep.", where_,
