@@ -22,7 +22,7 @@ std::vector<std::string> scheme_names() {
 }
 
 void refuse_what_is_not_there(const Arguments& arguments) {
-  for (const std::string name : {"--checkpoint", "--checkpoint-every", "--budget", "--proposers", "--weighers"})
+  for (const std::string name : {"--budget", "--proposers", "--weighers"})
     if (arguments.given(name))
       throw Refusal(ExitCode::kWrongUse, fmt::format("{}: {}: this version of mote does not have it yet. Leave it out.",
                                                      arguments.where(), name));
@@ -104,8 +104,6 @@ std::vector<OptionSpec> plan_options() {
       {"--precision", "TYPE", "double", "float or double", engine},
       {"--proposers", "R", "", "pipeline engine: not in this version", engine},
       {"--weighers", "R", "", "pipeline engine: not in this version", engine},
-      {"--checkpoint", "FILE", "", "not in this version", engine},
-      {"--checkpoint-every", "S", "", "not in this version", engine},
       {"--budget", "TIME", "", "not in this version", engine},
   };
 }

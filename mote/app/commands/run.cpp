@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mote/app/catalogue/catalogue.hpp"
+#include "mote/app/commands/checkpoint_options.hpp"
 #include "mote/app/commands/command.hpp"
 #include "mote/app/commands/job.hpp"
 #include "mote/app/commands/plan_options.hpp"
@@ -54,6 +55,7 @@ ExitCode run_run(const Arguments& arguments) {
   request.stop = &stop;
   OutputSet outputs;
   protect_inputs(outputs, arguments);
+  outputs.reserve(arguments.text("--checkpoint"));
   Output* estimates = outputs.open(arguments.text("--out"));
   Output* summary_file = outputs.open(arguments.text("--summary"));
   Output* report = outputs.open(arguments.text("--report"));
@@ -62,6 +64,10 @@ ExitCode run_run(const Arguments& arguments) {
     dump->write(particles_header(request.states));
     request.dump = [dump](Step t, const WeightedSet& set) { write_particles(*dump, t, set); };
   }
+  std::optional<CheckpointFile> checkpoint = checkpoint_from(arguments, plan, job);
+  if (checkpoint) request.checkpoint = &*checkpoint;
+  if (checkpoint && checkpoint->found())
+    job.notes.push_back(arguments.text("--checkpoint") + ": note: the run goes on from there.");
   for (const std::string& note : notes_on_unread(arguments, plan)) job.notes.push_back(note);
   for (const std::string& note : job.notes) fmt::print(stderr, "{}\n", printable(note));
   RunRecord record;
@@ -72,14 +78,17 @@ ExitCode run_run(const Arguments& arguments) {
   }
   if (record.interrupted)
     throw Refusal(ExitCode::kInterrupted,
-                  fmt::format("{}: interrupted after {} of {} steps; no file was written.", arguments.where(),
-                              record.rows.size(), job.recording.steps.size()));
+                  fmt::format("{}: interrupted after {} of {} steps; {}.", arguments.where(), record.rows.size(),
+                              job.recording.steps.size(),
+                              checkpoint ? "the same command goes on from " + arguments.text("--checkpoint")
+                                         : "no file was written"));
   record.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const Summary summary = summarise(record, job.truth ? &*job.truth : nullptr);
   if (estimates != nullptr) estimates->write(estimates_csv(record));
   if (summary_file != nullptr) summary_file->write(summary_json(record, summary).dump(2) + "\n");
   if (report != nullptr) report->write(report_for(job, record, summary));
   outputs.commit();
+  if (checkpoint) checkpoint->remove();
   if (!outputs.on_standard_output()) print_summary(record, summary);
   return ExitCode::kDone;
 }
@@ -101,6 +110,7 @@ Command run_command() {
       {"--dump-particles", "FILE", "", "weighted particles of every step as CSV [none]", "Output"},
   };
   for (OptionSpec& option : plan_options()) options.push_back(std::move(option));
+  for (OptionSpec& option : checkpoint_options()) options.push_back(std::move(option));
   return {"run",
           "Filter a recording",
           {{"MODEL", "a model of the catalogue (see mote models)"}},

@@ -125,6 +125,17 @@ void Output::commit() {
   aside_.clear();
 }
 
+void Output::commit_to_disk() {
+  if (std::fflush(file_) != 0) fail(errno);
+  while (fsync(fileno(file_)) != 0)
+    if (errno != EINTR) fail(errno);
+  commit();
+  const int folder = ::open(fs::path(target_).parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return;  // a folder that may be written but not read
+  fsync(folder);
+  close(folder);
+}
+
 void Output::fail(int error) const {
   if (error == EINTR) throw Refusal(ExitCode::kInterrupted, path_ + ": interrupted while it was written.");
   const std::string next = error == ENOSPC  ? "Free some space."
@@ -138,7 +149,8 @@ void OutputSet::protect(const std::string& path) {
   if (!path.empty()) inputs_.push_back(followed(path));
 }
 
-void OutputSet::claim(const std::string& path) {
+void OutputSet::reserve(const std::string& path) {
+  if (path.empty()) return;
   const std::string real = stream_named(path) == 1 ? "-" : followed(path);
   const auto among = [&](const std::vector<std::string>& all) {
     return !no_regular_file(real) && std::find(all.begin(), all.end(), real) != all.end();
@@ -154,7 +166,7 @@ void OutputSet::claim(const std::string& path) {
 
 Output* OutputSet::open(const std::string& path) {
   if (path.empty()) return nullptr;
-  claim(path);
+  reserve(path);
   outputs_.push_back(std::make_unique<Output>(path));
   return outputs_.back().get();
 }
@@ -167,6 +179,8 @@ void OutputSet::commit() {
 bool OutputSet::on_standard_output() const {
   return std::any_of(outputs_.begin(), outputs_.end(), [](const auto& o) { return o->is_standard_output(); });
 }
+
+bool names_stream(const std::string& path) { return stream_named(path) >= 0; }
 
 std::string exact(double value) { return fmt::format("{}", value); }
 

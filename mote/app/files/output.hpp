@@ -28,6 +28,8 @@ class Output {
   /// Hands everything to the system: after this only commit() is left that can fail.
   void finish();
   void commit();
+  /// As commit(), and returns when the file is on the disk under its name: it outlives the machine's end, too.
+  void commit_to_disk();
   bool is_standard_output() const { return stream_ == 1; }
 
  private:
@@ -46,10 +48,10 @@ class OutputSet {
  public:
   /// Keeps an input from being written over; nothing for an empty path.
   void protect(const std::string& path);
-  /// Takes a path for an output that somebody else opens.
+  /// Keeps a file that is written by others from being an output, too; nothing for an empty path.
   ///
   /// error   as open()
-  void claim(const std::string& path);
+  void reserve(const std::string& path);
   /// Opens an output, or does nothing for an empty path and returns nullptr.
   ///
   /// error   Refusal (kWrongUse) when two outputs go to the same file, or one goes over an input
@@ -62,6 +64,9 @@ class OutputSet {
   std::vector<std::string> inputs_, paths_;
   std::vector<std::unique_ptr<Output>> outputs_;
 };
+
+/// Whether a path names a stream of the program ("-" is standard output) rather than a file.
+bool names_stream(const std::string& path);
 
 /// A number as text that reads back to the same bits; "nan" and "inf" as such.
 std::string exact(double value);

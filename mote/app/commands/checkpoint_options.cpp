@@ -1,0 +1,97 @@
+#include "mote/app/commands/checkpoint_options.hpp"
+
+#include <algorithm>
+
+#include <boost/crc.hpp>
+#include <fmt/format.h>
+
+#include "mote/app/commands/plan_options.hpp"
+#include "mote/app/files/text.hpp"
+#include "mote/software/simd/isa.hpp"
+
+namespace mote {
+namespace {
+
+constexpr long long kMostSteps = 1000000000;
+
+std::string checksum_of(const std::string& text) {
+  boost::crc_32_type checksum;
+  checksum.process_bytes(text.data(), text.size());
+  return fmt::format("{:08x}", checksum.checksum());
+}
+
+/// A recording as a fact: its steps, and the checksum of all that a filter sees of them.
+std::string summed_up(const Recording& recording) {
+  boost::crc_32_type checksum;
+  const auto note = [&](const auto& number) { checksum.process_bytes(&number, sizeof number); };
+  for (const ObservedStep& step : recording.steps) {
+    note(step.t);
+    note(step.rows.size());
+    for (const Row<double>& row : step.rows)
+      for (std::size_t j = 0; j < row.values.size(); ++j) note(row.present[j] ? row.values[j] : kNaN);
+  }
+  return fmt::format("{} steps, checksum {:08x}", recording.steps.size(), checksum.checksum());
+}
+
+std::string instruction_set(const Plan& plan) {
+  if (engine_of(plan) != Engine::kSimd) return "any";
+  switch (best_isa().value_or(Isa::kSse4)) {
+    case Isa::kSse4:
+      return "SSE4";
+    case Isa::kAvx2:
+      return "AVX2";
+    case Isa::kAvx512:
+      return "AVX-512";
+  }
+  return "";
+}
+
+RunFacts facts_of(const Arguments& arguments, const Plan& plan, const Job& job) {
+  RunFacts facts{{"mote", MOTE_VERSION}, {"MODEL", job.model_name}};
+  std::vector<std::string> settings = arguments.list("--set");
+  std::sort(settings.begin(), settings.end());
+  facts.emplace_back("--set", fmt::format("{}", fmt::join(settings, " ")));
+  for (const std::string& setting : settings)
+    if (setting.starts_with("file="))
+      facts.emplace_back("matrices of checksum", checksum_of(read_text(setting.substr(5))));
+  facts.emplace_back("--data of", summed_up(job.recording));
+  facts.emplace_back("--estimate", fmt::format("{}", fmt::join(arguments.list("--estimate"), " ")));
+  for (const OptionSpec& option : plan_options()) {
+    const std::string name = option.flags.substr(option.flags.find("--"));
+    if (name == "--threads") continue;  // no result depends on them
+    facts.emplace_back(name, name == "--engine" ? std::string(name_of(engine_of(plan))) : arguments.text(name));
+  }
+  facts.emplace_back("instruction set", instruction_set(plan));
+  return facts;
+}
+
+}  // namespace
+
+std::vector<OptionSpec> checkpoint_options() {
+  const std::string group = "Checkpoint";
+  return {{"--checkpoint", "FILE", "",
+           "keep the run in FILE, now and then and at Ctrl-C; if FILE exists the run goes on from there. Removed when "
+           "the run is done [none]",
+           group},
+          {"--checkpoint-every", "S", "",
+           "steps of the model between two checkpoints [10 s, or what makes them 5 % of the time]", group}};
+}
+
+std::optional<CheckpointFile> checkpoint_from(const Arguments& arguments, const Plan& plan, const Job& job) {
+  std::optional<std::size_t> every;
+  if (arguments.given("--checkpoint-every"))
+    every = static_cast<std::size_t>(arguments.integer("--checkpoint-every", 1, kMostSteps));
+  if (!arguments.given("--checkpoint")) {
+    if (every)
+      throw Refusal(ExitCode::kWrongUse, {arguments.where(), "--checkpoint-every", "--checkpoint FILE beside it",
+                                          "none", "Pass --checkpoint run.checkpoint."});
+    return {};
+  }
+  if (arguments.given("--dump-particles"))
+    throw Refusal(ExitCode::kWrongUse,
+                  {arguments.where(), "--checkpoint", "no --dump-particles beside it, which a run broken off loses",
+                   "--dump-particles " + arguments.text("--dump-particles"), "Pass one of the two."});
+  return std::make_optional<CheckpointFile>(arguments.text("--checkpoint"), facts_of(arguments, plan, job), every);
+}
+
+}  // namespace mote
