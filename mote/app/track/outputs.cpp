@@ -102,7 +102,7 @@ TrackOutputs::TrackOutputs(const Arguments& arguments, const Frames& frames, std
 }
 
 void TrackOutputs::claim_pictures(std::size_t number) {
-  while (claimed_ < number) set_.claim(film_->file_of(++claimed_));
+  while (reserved_ < number) set_.reserve(film_->file_of(++reserved_));
 }
 
 void TrackOutputs::add(const cv::Mat& frame, Pursuit& run) {

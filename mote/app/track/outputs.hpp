@@ -35,7 +35,7 @@ class TrackOutputs {
   std::string sheet_ending_;
   std::optional<vision::Sheet> sheet_;
   std::optional<vision::Film> film_;
-  std::size_t claimed_ = 0;  // pictures of the film
+  std::size_t reserved_ = 0;  // pictures of the film
   std::optional<Screen> screen_;
 };
 
