@@ -21,8 +21,8 @@ enum class Sighting { kSure, kUnsure, kHidden };
 ///
 ///   score = 1/2 min(1, response / usual response) + 1/2 min(1, exp(log density + 1/2))
 ///
-/// The log density is the appearance's, a mean over the pixels, nat: about -1/2 where the target is seen, and below -1.6
-/// (what the lost component gives any normalised patch) where it is not.
+/// The log density is the appearance's, a mean over the pixels, nat: about -1/2 where the target is seen, and below
+/// -1.6 (what the lost component gives any normalised patch) where it is not.
 ///
 /// The target is lost after `patience` hidden frames on end.
 class Confidence {

@@ -172,9 +172,8 @@ void Tracker::follow(const View& view, Track& track) {
   }
   const Pose estimated = estimate();
   track.cloud = centres_of(filter_->weighted());
-  const double density = track.report.collapsed || !is_sane(estimated)
-                             ? -kInfinity
-                             : appearance_->mean_log_density(patch_at(estimated));
+  const double density =
+      track.report.collapsed || !is_sane(estimated) ? -kInfinity : appearance_->mean_log_density(patch_at(estimated));
   const double response = sight_->place.at(estimated[kX], estimated[kY]);
   track.score = confidence_->score(response, density);
   const Sighting sighting = confidence_->note(response, density);
