@@ -6,7 +6,7 @@ namespace mote::vision {
 struct ConfidenceOptions {
   double learn = 0.55;       ///< score from which a frame is learnt
   double full = 0.8;         ///< score from which a frame is learnt at the full rate
-  double hidden = 0.5;       ///< score below which the target is taken to be hidden
+  double hidden = 0.45;      ///< score below which the target is taken to be hidden
   int patience = 4;          ///< hidden frames after which the target is lost
   double near = 0.5;         ///< response that shows it again near where it was lost, in usual responses
   double far = 0.65;         ///< and elsewhere

@@ -39,8 +39,7 @@ double mean_overlap(const Clip& clip, const std::string& options) {
 
 class Clips : public ::testing::TestWithParam<Clip> {};
 
-// claim    default options follow the target: the mean overlap reaches what is asked on every clip but jogging2, where
-//          0.74 is asked and 0.65 kept
+// claim    default options follow the target: the mean overlap reaches what is asked on every clip
 // referee  boxes drawn by hand, published with the clips
 // design   seeds 1 to 3, fixed: the verdict never flickers
 // risk     none of chance; the twin (the appearance alone, without the place filter) must fail on the clip with a full
@@ -65,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Clip{"car4", "otb_car4/img", "otb_car4/groundtruth_rect.txt", "69,50,107,87", 0.85},
                       Clip{"crossing", "otb_crossing/img", "otb_crossing/groundtruth_rect.txt", "204,150,17,50", 0.75},
                       Clip{"jogging1", "otb_jogging/img", "otb_jogging/groundtruth_rect.1.txt", "110,97,25,101", 0.65},
-                      Clip{"jogging2", "otb_jogging/img", "otb_jogging/groundtruth_rect.2.txt", "179,78,37,114", 0.65},
+                      Clip{"jogging2", "otb_jogging/img", "otb_jogging/groundtruth_rect.2.txt", "179,78,37,114", 0.74},
                       Clip{"david", "tld_david/david.mpg", "tld_david/gt.txt", "165,93,51,54", 0.70},
                       Clip{"pedestrian3", "tld_pedestrian3/pedestrian3.mpg", "tld_pedestrian3/gt.txt", "154,102,24,52",
                            0.75}),
