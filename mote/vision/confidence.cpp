@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mote/base/numbers.hpp"
+
 namespace mote::vision {
 
 double Confidence::score(double response, double log_density) const {
@@ -16,12 +18,14 @@ double Confidence::weight(double score) const {
 
 Sighting Confidence::note(double response, double log_density) {
   const double now = score(response, log_density);
+  ++since_sure_;
   if (!(now >= options_.hidden)) {
     ++hidden_;
     return Sighting::kHidden;
   }
   hidden_ = 0;
   if (now < options_.learn) return Sighting::kUnsure;
+  since_sure_ = 0;
   ++sure_;
   const double rate = std::max(options_.usual_rate, 0.5 / (1.0 + sure_));
   usual_ += weight(now) * rate * (response - usual_);
@@ -30,15 +34,29 @@ Sighting Confidence::note(double response, double log_density) {
 
 void Confidence::note_search(bool found) {
   gone_ = found ? 0 : gone_ + 1;
-  if (found) hidden_ = 0;
+  ++since_sure_;
+  if (!found) return;
+  hidden_ = 0;
+  since_sure_ = std::min(since_sure_, options_.doubt - 1);
+}
+
+bool Confidence::is_near(double distance) const {
+  constexpr double kSpeed = 0.1;  // sides a frame
+  return distance < 1 + kSpeed * gone_;
+}
+
+double Confidence::needed(double distance) const {
+  constexpr int kAnywhere = 25;  // frames after which the target may be anywhere
+  constexpr double kLeniency = 0.002;
+  if (is_near(distance)) return options_.near * usual_;
+  if (gone_ < kAnywhere) return kInfinity;
+  return (options_.far - kLeniency * std::min(gone_, 75)) * usual_;
 }
 
 bool Confidence::is_found(double response, double log_density, double distance) const {
-  constexpr double kSpread = 0.05;  // sides a frame that "near" grows by
-  constexpr double kLeniency = 0.002;
-  const bool near = distance < 1 + kSpread * gone_;
-  const double needed = near ? options_.near : options_.far - kLeniency * std::min(gone_, 75);
-  return response >= needed * usual_ && score(response, log_density) >= options_.hidden;
+  const double close = since_sure_ < options_.doubt ? options_.hidden : options_.learn;
+  return response >= needed(distance) &&
+         score(response, log_density) >= (is_near(distance) ? close : options_.far_score);
 }
 
 }  // namespace mote::vision

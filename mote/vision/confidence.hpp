@@ -4,12 +4,14 @@
 namespace mote::vision {
 
 struct ConfidenceOptions {
-  double learn = 0.55;       ///< score from which a frame is learnt
-  double full = 0.8;         ///< score from which a frame is learnt at the full rate
-  double hidden = 0.45;      ///< score below which the target is taken to be hidden
-  int patience = 4;          ///< hidden frames after which the target is lost
-  double near = 0.5;         ///< response that shows it again near where it was lost, in usual responses
-  double far = 0.65;         ///< and elsewhere
+  double learn = 0.55;   ///< score from which a frame is learnt
+  double full = 0.8;     ///< score from which a frame is learnt at the full rate
+  double hidden = 0.45;  ///< score below which the target is taken to be hidden
+  int patience = 4;      ///< hidden frames after which the target is lost
+  double near = 0.5;     ///< response that shows it again where it may have got to, in usual responses
+  double far = 0.65;     ///< and elsewhere, where its score must be `far_score`, too
+  double far_score = 0.6;
+  int doubt = 25;            ///< frames without a sure one after which it is lost
   double usual_rate = 0.05;  ///< with which the usual response follows
 };
 
@@ -24,7 +26,7 @@ enum class Sighting { kSure, kUnsure, kHidden };
 /// The log density is the appearance's, a mean over the pixels, nat: about -1/2 where the target is seen, and below
 /// -1.6 (what the lost component gives any normalised patch) where it is not.
 ///
-/// The target is lost after `patience` hidden frames on end.
+/// The target is lost after `patience` hidden frames on end, or `doubt` frames of which none was sure.
 class Confidence {
  public:
   /// response: of the place filter to the frame that it has just learnt, which flatters it.
@@ -39,11 +41,15 @@ class Confidence {
   Sighting note(double response, double log_density);
   /// Notes that the target was found again, or one more frame without it.
   void note_search(bool found);
-  bool lost() const { return hidden_ >= options_.patience; }
+  bool lost() const { return hidden_ >= options_.patience || since_sure_ >= options_.doubt; }
   /// Frames since the target was lost.
   int gone() const { return gone_; }
-  /// Whether a place `distance` from where the target was lost, in geometric means of its sides, shows it again.
-  /// What is asked falls a little with time, so that a target that has changed is not lost for good.
+  /// Whether the target may have got as far as `distance` from where it was lost, in geometric means of its sides.
+  bool is_near(double distance) const;
+  /// The response that shows it again at that distance: infinity where it cannot be yet. What is asked elsewhere falls
+  /// a little with time, so that a target that has changed is not lost for good.
+  double needed(double distance) const;
+  /// Whether a place at that distance shows the target again. After a long doubt only a sure one does.
   bool is_found(double response, double log_density, double distance) const;
 
  private:
@@ -51,7 +57,7 @@ class Confidence {
 
   ConfidenceOptions options_;
   double usual_;
-  int sure_ = 0, hidden_ = 0, gone_ = 0;
+  int sure_ = 0, hidden_ = 0, since_sure_ = 0, gone_ = 0;
 };
 
 }  // namespace mote::vision

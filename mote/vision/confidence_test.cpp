@@ -14,8 +14,8 @@ TEST(Confidence, LosesAfterPatienceAndFindsAgain) {
   EXPECT_TRUE(confidence.lost());
   confidence.note_search(false);
   EXPECT_EQ(confidence.gone(), 1);
-  EXPECT_FALSE(confidence.is_found(0.2, -0.3, 10));
-  EXPECT_TRUE(confidence.is_found(0.45, -0.5, 10));
+  EXPECT_FALSE(confidence.is_found(0.2, -0.3, 1));
+  EXPECT_TRUE(confidence.is_found(0.45, -0.5, 1));
   confidence.note_search(true);
   EXPECT_FALSE(confidence.lost());
 }
@@ -37,10 +37,32 @@ TEST(Confidence, AnOccluderLikeTheTargetHides) {
   EXPECT_EQ(confidence.note(0.05, -1.0), Sighting::kHidden);
 }
 
-TEST(Confidence, NearAPlaceLessIsAsked) {
+TEST(Confidence, WhereItMayHaveGotToLessIsAsked) {
   Confidence confidence({}, 1.0);
   EXPECT_TRUE(confidence.is_found(0.28, -0.5, 0.5));
+  EXPECT_FALSE(confidence.is_found(0.45, -0.5, 5));  // nothing leaps five sides in a frame
+  for (int k = 0; k < 30; ++k) confidence.note_search(false);
+  EXPECT_TRUE(confidence.is_near(3));
+  EXPECT_FALSE(confidence.is_near(5));
   EXPECT_FALSE(confidence.is_found(0.28, -0.5, 5));
+  EXPECT_TRUE(confidence.is_found(0.45, -0.5, 5));
+}
+
+/// What looks half like the target, for ever: the background that a wrong find is stuck on.
+TEST(Confidence, ALongDoubtIsALossAndOnlyASurePlaceEndsIt) {
+  const ConfidenceOptions options;
+  Confidence confidence(options, 1.0);
+  for (int k = 1; k < options.doubt; ++k) {
+    EXPECT_EQ(confidence.note(0.25, -1.3), Sighting::kUnsure);
+    EXPECT_FALSE(confidence.lost()) << k;
+  }
+  confidence.note(0.25, -1.3);
+  EXPECT_TRUE(confidence.lost());
+  EXPECT_FALSE(confidence.is_found(0.25, -1.3, 0));
+  EXPECT_TRUE(confidence.is_found(0.25, -1.0, 0));
+  confidence.note_search(true);
+  EXPECT_FALSE(confidence.lost());
+  EXPECT_EQ(confidence.note(0.25, -1.0), Sighting::kSure);
 }
 
 TEST(Confidence, AResponseThatIsNoNumberHides) {
