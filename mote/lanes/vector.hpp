@@ -14,6 +14,11 @@
 #include <type_traits>
 #include <utility>
 
+// Highway 1.0.3 refuses -march=native on processors with VNNI and VBMI2 (Ice Lake and later) unless their target is
+// asked for: it tests a macro that it does not define.
+#ifndef HWY_WANT_AVX3_DL
+#define HWY_WANT_AVX3_DL
+#endif
 #include <hwy/highway.h>
 
 #include "mote/base/numbers.hpp"
