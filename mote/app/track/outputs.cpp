@@ -84,6 +84,7 @@ std::string sheet_ending(const Arguments& arguments) {
 }  // namespace
 
 TrackOutputs::TrackOutputs(const Arguments& arguments, const Frames& frames, std::size_t most) {
+  constexpr std::size_t kMostAtOnce = 100'000;  // a count may be a wild guess
   protect_inputs(set_, arguments, frames);
   boxes_ = set_.open(arguments.text("--out"));
   summary_ = set_.open(arguments.text("--summary"));
@@ -95,7 +96,7 @@ TrackOutputs::TrackOutputs(const Arguments& arguments, const Frames& frames, std
   }
   if (arguments.given("--video")) {
     film_.emplace(arguments.text("--video"), frames.rate());
-    claim_pictures(film_->pictures() ? std::min(most, frames.count()) : 1);
+    claim_pictures(film_->pictures() ? std::min({most, frames.count(), kMostAtOnce}) : 1);
   }
   if (boxes_ != nullptr) boxes_->write(boxes_header());
   if (arguments.given("--show")) screen_.emplace(arguments.where());
@@ -116,7 +117,7 @@ void TrackOutputs::add(const cv::Mat& frame, Pursuit& run) {
       annotated(frame, track, run.first(), number, number <= truth.size() ? &truth[number - 1] : nullptr);
   if (on_sheet) sheet_->add(number, drawn);
   if (film_) {
-    if (film_->pictures()) claim_pictures(number);  // where the count was a guess
+    if (film_->pictures()) claim_pictures(number);
     film_->add(drawn);
   }
   if (screen_) screen_->show(drawn);

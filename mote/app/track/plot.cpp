@@ -115,7 +115,8 @@ std::vector<std::string> losses(const TrackRecord& record) {
     if (!record.tracks[k++].lost) continue;
     const std::size_t from = k;
     while (k < record.tracks.size() && record.tracks[k].lost) ++k;
-    texts.push_back(fmt::format("frame {} to {} ({} frames)", from, k, k - from + 1));
+    texts.push_back(from == k ? fmt::format("frame {}", k)
+                              : fmt::format("frame {} to {} ({} frames)", from, k, k - from + 1));
   }
   return texts;
 }

@@ -41,7 +41,7 @@ struct ParticleTimes {
 };
 ParticleTimes particle_times_us(const TrackRecord& record);
 
-/// Times of stretches without the target: "frame 12 to 30 (19 frames)".
+/// Stretches without the target: "frame 12 to 30 (19 frames)", "frame 40".
 std::vector<std::string> losses(const TrackRecord& record);
 
 /// The track as a page: score, place and size over the frames, centre error and overlap where there is a truth.
