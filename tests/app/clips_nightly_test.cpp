@@ -42,7 +42,8 @@ class Clips : public ::testing::TestWithParam<Clip> {};
 // claim    default options follow the target: the mean overlap reaches what is asked on every clip
 // referee  boxes drawn by hand, published with the clips
 // design   seeds 1 to 3, fixed: the verdict never flickers
-// risk     none of chance; the twin (the appearance alone, without the filters of place and extent) must fail on the clip
+// risk     none of chance; the twin (the appearance alone, without the filters of place and extent) must fail on the
+// clip
 //          with a full occlusion
 TEST_P(Clips, ReachTheOverlapAsked) {
   const Clip& clip = GetParam();
