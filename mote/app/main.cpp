@@ -3,8 +3,9 @@
 
 int main(int count, char** words) {
   using namespace mote;
-  const auto hand_over = [words](const Arguments&) -> ExitCode { hand_over_to_tracker(words); };
+  const auto to_tracker = [words](const Arguments&) -> ExitCode { hand_over_to_tracker(words); };
+  const auto to_team = [words](const Arguments&) -> ExitCode { hand_over_to_team(words); };
   return run_program(count, words,
-                     {models_command(), simulate_command(), run_command(), track_command(hand_over),
-                      train_command(hand_over), compare_command(), bench_command(), reproduce_command()});
+                     {models_command(), simulate_command(), run_command(to_team), track_command(to_tracker),
+                      train_command(to_tracker), compare_command(), bench_command(), reproduce_command()});
 }

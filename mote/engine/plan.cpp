@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "mote/base/refusal.hpp"
+#include "mote/engine/team.hpp"
 #include "mote/filter/particles.hpp"
 
 namespace mote {
@@ -41,6 +42,13 @@ void check_groups(const Plan& plan, const std::string& where) {
           std::to_string(g.exchange_count), "Pass --exchange-count 1, or fewer groups.");
 }
 
+void check_ranks(const Plan& plan, const std::string& where) {
+  const std::size_t blocks = (plan.particles + kBlock - 1) / kBlock;
+  require(plan.team->ranks() <= blocks, where, "--engine mpi",
+          fmt::format("at most {} ranks for {} particles, a block of {} each", blocks, plan.particles, kBlock),
+          fmt::format("{} ranks", plan.team->ranks()), "Start fewer ranks, or pass more --particles.");
+}
+
 }  // namespace
 
 std::string_view name_of(FilterKind filter) {
@@ -71,6 +79,8 @@ std::string_view name_of(Engine engine) {
       return "reference";
     case Engine::kSimd:
       return "simd";
+    case Engine::kMpi:
+      return "mpi";
   }
   return "";
 }
@@ -80,6 +90,11 @@ double bytes_needed(const Plan& plan, std::size_t dimensions) {
     return static_cast<double>(plan.particles + 2 * dimensions) * (static_cast<double>(dimensions) * 32 + 16);
   const double state = static_cast<double>(dimensions) * (plan.precision == Precision::kFloat ? 4 : 8);
   const auto n = static_cast<double>(plan.particles);
+  if (engine_of(plan) == Engine::kMpi) {
+    const double number = plan.precision == Precision::kFloat ? 4 : 8;
+    // those that arrive and those that leave, besides
+    return n / static_cast<double>(plan.team == nullptr ? 1 : plan.team->ranks()) * (4 * state + 3 * number) + 1e6;
+  }
   if (engine_of(plan) == Engine::kSimd && plan.filter == FilterKind::kSisr) {
     const double number = plan.precision == Precision::kFloat ? 4 : 8;
     // weights for any other scheme or exponent are formed in double, and ancestors listed
@@ -102,6 +117,11 @@ void check(const Plan& plan, const std::string& where) {
           "--filter sisr, or imh or auxiliary with --proposal prior, without --burn-in auto and lookahead",
           fmt::format("--filter {} --proposal {}", name_of(plan.filter), plan.proposal),
           "Pass --engine reference, or leave it out.");
+  require(plan.engine != Engine::kMpi || team_has(plan), where, "--engine mpi",
+          "--filter sisr with --resampler systematic and --selection-exponent 1",
+          fmt::format("--filter {} --resampler {} --selection-exponent {}", name_of(plan.filter),
+                      plan.selection.scheme->name, plan.selection.exponent),
+          "Pass --engine fastest, or leave it out.");
   require(plan.particles >= 1 && plan.particles <= kMostParticles, where, "--particles",
           fmt::format("an integer from 1 to {}", kMostParticles), std::to_string(plan.particles),
           "Pass --particles 1000.");
@@ -112,6 +132,7 @@ void check(const Plan& plan, const std::string& where) {
           fmt::format("{}", s.exponent), "Pass --selection-exponent 1.");
   if (plan.filter == FilterKind::kImh || plan.filter == FilterKind::kAuxiliary) check_chain(plan, where);
   if (plan.filter == FilterKind::kDistributed) check_groups(plan, where);
+  if (plan.team != nullptr) check_ranks(plan, where);
 }
 
 }  // namespace mote

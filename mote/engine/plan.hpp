@@ -15,7 +15,10 @@ enum class Engine {
   kFastest,    ///< the fastest that has the plan's filter
   kReference,  ///< slow and obvious: the referee
   kSimd,       ///< vectors of particles
+  kMpi,        ///< the same on a team of processes
 };
+
+class Team;
 
 /// What to run. Defaults are the papers' filters.
 struct Plan {
@@ -30,6 +33,7 @@ struct Plan {
   OnCollapse on_collapse = OnCollapse::kStop;
   Engine engine = Engine::kFastest;
   std::size_t threads = 1;  ///< results never depend on them
+  Team* team = nullptr;     ///< whom the particles are shared with, by kMpi; results do not depend on it, either
 };
 
 /// Whether the SIMD engine has the plan's filter: SISR, and chains whose proposal is the prior, with a fixed burn-in
@@ -39,6 +43,12 @@ inline bool simd_has(const Plan& plan) {
   const bool chains = plan.filter == FilterKind::kAuxiliary || plan.filter == FilterKind::kImh;
   return chains && plan.proposal == Prior::kName && plan.chain.burn_in &&
          plan.chain.parent_weights == ParentWeights::kUniform;
+}
+
+/// Whether a team can run the plan's filter: SISR whose selection needs no more than the sums of the blocks.
+inline bool team_has(const Plan& plan) {
+  return plan.filter == FilterKind::kSisr && plan.selection.scheme == &systematic_scheme() &&
+         plan.selection.exponent == 1;
 }
 
 /// The engine that runs a plan.

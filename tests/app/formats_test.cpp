@@ -221,7 +221,7 @@ TEST(Models, AreShownAsTextToo) {
 // Every option says its default, that it must be given, or that this version does not have it.
 TEST(Help, ShowsEveryOptionWithItsDefault) {
   const Scratch scratch;
-  for (const Command& command : {models_command(), simulate_command(), run_command(), reproduce_command()}) {
+  for (const Command& command : {models_command(), simulate_command(), run_command(nullptr), reproduce_command()}) {
     const Ended help = scratch.shell("mote " + command.name + " --help");
     EXPECT_EQ(help.code, 0);
     EXPECT_EQ(help.err, "");

@@ -83,20 +83,22 @@ class Scratch {
   std::filesystem::path path_;
 };
 
-/// The program as a child that is watched while it runs; standard error goes to the file "err" of the folder.
+/// The program, or another one that starts it, as a child that is watched while it runs; standard error goes to the
+/// file "err" of the folder.
 class Child {
  public:
-  Child(const Scratch& scratch, std::vector<std::string> words) : scratch_(scratch), id_(fork()) {
+  Child(const Scratch& scratch, std::vector<std::string> words, const std::string& program = MOTE_PROGRAM)
+      : scratch_(scratch), id_(fork()) {
     if (id_ < 0) throw std::runtime_error("fork failed");
     if (id_ > 0) return;
     if (chdir(scratch.path().c_str()) != 0) _exit(99);
     dup2(open("/dev/null", O_RDWR | O_CLOEXEC), STDOUT_FILENO);
     dup2(open("err", O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600), STDERR_FILENO);
-    words.insert(words.begin(), MOTE_PROGRAM);
+    words.insert(words.begin(), program);
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
-    execv(MOTE_PROGRAM, pointers.data());
+    execvp(program.c_str(), pointers.data());
     _exit(99);
   }
 
@@ -104,6 +106,8 @@ class Child {
   void signal(int number) const {
     if (id_ > 0) kill(id_, number);
   }
+
+  pid_t id() const { return id_; }
 
   /// Waits for the end: exit code (128 + signal when one ended it), standard error, largest resident memory in bytes.
   struct End {

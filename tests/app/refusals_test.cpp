@@ -181,7 +181,6 @@ const std::vector<Case> kUse{
     {"LookaheadImh", kGood, kRun + "--filter imh --parent-weights lookahead", 2, "--parent-weights lookahead"},
     {"NoPipelineYet", kGood, kRun + "--engine pipeline", 2, "--engine pipeline: this version of mote does not have"},
     {"SimdHasNoGroups", kGood, kRun + "--engine simd --filter distributed", 2, "--engine simd: expected --filter sisr"},
-    {"NoMpi", kGood, kRun + "--engine mpi", 2, "--engine mpi: this version of mote does not have"},
     {"EkfOfStudentsNoise", "t,bearing\n1,0.1\n", "mote run bearings --data d.csv --set dof=3 --filter ekf", 2,
      "--filter ekf: expected a model whose noise is Gaussian, got one that draws uniform numbers"},
     {"CheckpointEveryWithoutAFile", kGood, kRun + "--checkpoint-every 3", 2,

@@ -17,6 +17,11 @@ Simulation CatalogueModel::simulate(Step steps, std::uint64_t seed) const {
   return all;
 }
 
+void refuse_without_team(const std::string& where) {
+  throw Refusal(ExitCode::kWrongUse, {where, "--engine mpi", "the command mote run, which starts a team of processes",
+                                      "another command", "Pass --engine simd, or leave it out."});
+}
+
 const CatalogueEntry& find_model(const std::string& name, const std::string& where) {
   std::vector<std::string> known;
   for (const CatalogueEntry& entry : catalogue()) {

@@ -70,6 +70,9 @@ struct CatalogueEntry {
 /// All models, in the order of models.txt.
 const std::vector<CatalogueEntry>& catalogue();
 
+/// Refuses --engine mpi where no team of processes was started.
+[[noreturn]] void refuse_without_team(const std::string& where);
+
 /// The entry of that name.
 ///
 /// error   Refusal (kWrongUse) that lists the names there are

@@ -16,8 +16,15 @@ class CatalogueModelOf final : public CatalogueModel {
   std::vector<Column> columns() const override { return model_.columns(); }
   std::vector<ValueSource> sources() const override { return value_sources(model_); }
   std::unique_ptr<Filter> filter(const Plan& plan, const std::string& where) const override {
-    return engine_of(plan) == Engine::kSimd ? simd_filter(model_, plan, where)
-                                            : make_reference_filter(model_, plan, where);
+    switch (engine_of(plan)) {
+      case Engine::kMpi:
+        if (plan.team == nullptr) refuse_without_team(where);
+        [[fallthrough]];
+      case Engine::kSimd:
+        return simd_filter(model_, plan, where);
+      default:
+        return make_reference_filter(model_, plan, where);
+    }
   }
   std::unique_ptr<referee::Solver> solver() const override { return referee::solver_of(model_); }
 

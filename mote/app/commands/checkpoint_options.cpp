@@ -7,6 +7,7 @@
 
 #include "mote/app/commands/plan_options.hpp"
 #include "mote/app/files/text.hpp"
+#include "mote/engine/team.hpp"
 #include "mote/software/simd/isa.hpp"
 
 namespace mote {
@@ -34,7 +35,7 @@ std::string summed_up(const Recording& recording) {
 }
 
 std::string instruction_set(const Plan& plan) {
-  if (engine_of(plan) != Engine::kSimd) return "any";
+  if (engine_of(plan) == Engine::kReference) return "any";
   switch (best_isa().value_or(Isa::kSse4)) {
     case Isa::kSse4:
       return "SSE4";
@@ -62,6 +63,7 @@ RunFacts facts_of(const Arguments& arguments, const Plan& plan, const Job& job) 
     facts.emplace_back(name, name == "--engine" ? std::string(name_of(engine_of(plan))) : arguments.text(name));
   }
   facts.emplace_back("instruction set", instruction_set(plan));
+  facts.emplace_back("ranks", std::to_string(plan.team == nullptr ? 1 : plan.team->ranks()));
   return facts;
 }
 

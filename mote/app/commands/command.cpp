@@ -138,6 +138,7 @@ Refusal refusal_for(const CLI::ParseError& error, const Bound* bound, const std:
 }
 
 int refused(const std::string& sentence, ExitCode code) {
+  if (sentence.empty()) return static_cast<int>(code);  // another rank of the team says it
   std::fputs((printable(sentence) + "\n").c_str(), stderr);
   return static_cast<int>(code);
 }

@@ -79,10 +79,13 @@ Arguments arguments_from(const std::string& where, const std::vector<OptionSpec>
 
 Command models_command();
 Command simulate_command();
-Command run_command();
 Command compare_command();
 Command bench_command();
 Command reproduce_command();
+
+/// `mote run`; with --engine mpi it is performed by `team`: the program mote-mpi has teams, mote hands its words over
+/// to it.
+Command run_command(std::function<ExitCode(const Arguments&)> team);
 
 /// `mote track`, performed by `track`: the program mote-track has the tracker, mote hands its words over to it.
 Command track_command(std::function<ExitCode(const Arguments&)> track);

@@ -13,16 +13,6 @@
 namespace mote {
 namespace {
 
-void check_memory(const Plan& plan, std::size_t dimensions, const std::string& where) {
-  const double need = bytes_needed(plan, dimensions);
-  const double have = available_memory();
-  if (need <= have) return;
-  throw Refusal(
-      ExitCode::kWrongUse,
-      {where, "--particles", fmt::format("particles that fit into the {:.1f} GB of memory there are", have / 1e9),
-       fmt::format("{}, which need {:.1f} GB", plan.particles, need / 1e9), "Pass fewer --particles."});
-}
-
 std::string note_of_unused(const Table& table, const std::vector<std::string>& read) {
   const auto unused = unused_columns(table, read);
   return unused.empty()
@@ -74,10 +64,23 @@ RunRequest request_for(const Job& job, const std::vector<std::string>& estimates
   return request;
 }
 
+void check_memory(const Plan& plan, const Job& job, const std::string& where) {
+  const double need = bytes_needed(plan, job.model->states().size());
+  const double have = available_memory();
+  if (need <= have) return;
+  throw Refusal(
+      ExitCode::kWrongUse,
+      {where, "--particles", fmt::format("particles that fit into the {:.1f} GB of memory there are", have / 1e9),
+       fmt::format("{}, which need {:.1f} GB", plan.particles, need / 1e9), "Pass fewer --particles."});
+}
+
 RunRecord run_job(const Job& job, const Plan& plan, const RunRequest& request, const std::string& where) {
-  check_memory(plan, request.states.size(), where);
-  const auto filter = job.model->filter(plan, where);
-  RunRecord record = run(*filter, plan, job.recording, request);
+  check_memory(plan, job, where);
+  return run_filter(*job.model->filter(plan, where), job, plan, request);
+}
+
+RunRecord run_filter(Filter& filter, const Job& job, const Plan& plan, const RunRequest& request) {
+  RunRecord record = run(filter, plan, job.recording, request);
   record.model = job.model_name;
   record.engine = name_of(engine_of(plan));
   return record;

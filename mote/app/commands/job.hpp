@@ -25,10 +25,17 @@ Job load_job(const std::string& model, const std::string& data_path, const std::
 /// A request for the job's states and the functions asked for.
 RunRequest request_for(const Job& job, const std::vector<std::string>& estimates, const std::string& where);
 
+/// Refuses a plan that needs more memory than there is (Refusal, kWrongUse).
+void check_memory(const Plan& plan, const Job& job, const std::string& where);
+
 /// Runs the plan on its engine.
 ///
-/// error   Refusal: memory that does not suffice (kWrongUse), collapse (kCollapsed)
+/// error   Refusal: memory that does not suffice, a proposal that the model does not have (kWrongUse), collapse
+///         (kCollapsed)
 RunRecord run_job(const Job& job, const Plan& plan, const RunRequest& request, const std::string& where);
+
+/// The same with a filter that has been made of the plan.
+RunRecord run_filter(Filter& filter, const Job& job, const Plan& plan, const RunRequest& request);
 
 /// The report page of a run as HTML.
 std::string report_for(const Job& job, const RunRecord& record, const Summary& summary);

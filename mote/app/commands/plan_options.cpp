@@ -11,8 +11,8 @@ namespace mote {
 namespace {
 
 const std::vector<std::string> kFilters{"sisr", "imh", "auxiliary", "distributed", "sqmc", "ekf", "ukf"};
-const std::vector<std::string> kEngines{"fastest", "reference", "simd"};
-const std::vector<std::string> kEnginesLater{"pipeline", "mpi"};
+const std::vector<std::string> kEngines{"fastest", "reference", "simd", "mpi"};
+const std::vector<std::string> kEnginesLater{"pipeline"};
 constexpr long long kMost = static_cast<long long>(kMostParticles);
 
 std::vector<std::string> scheme_names() {
@@ -98,9 +98,11 @@ std::vector<OptionSpec> plan_options() {
       {"--group-weights", "HOW", "carried",
        "carried = properly weighted; reset = every group counts alike after resampling (PPF)", groups},
       {"--engine", "NAME", "fastest",
-       "simd (vectors and threads: sisr, imh, auxiliary), reference (all filters), or the fastest that has the filter",
+       "simd (vectors and threads: sisr, imh, auxiliary), reference (all filters), the fastest of them that has the "
+       "filter, or mpi (sisr on the processes of mpirun)",
        engine},
-      {"--threads", "K", "", "threads; results never depend on it; the reference engine uses one [all cores]", engine},
+      {"--threads", "K", "",
+       "threads; results never depend on it; the reference engine uses one [all cores; mpi: one a process]", engine},
       {"--precision", "TYPE", "double", "float or double", engine},
       {"--proposers", "R", "", "pipeline engine: not in this version", engine},
       {"--weighers", "R", "", "pipeline engine: not in this version", engine},
@@ -127,8 +129,9 @@ Plan plan_from(const Arguments& arguments) {
   plan.groups.exchange_count = static_cast<std::size_t>(arguments.integer("--exchange-count", 1, kMost));
   plan.groups.carry_group_weights = arguments.choice("--group-weights", {"carried", "reset"}) == 0;
   plan.engine = static_cast<Engine>(arguments.choice("--engine", kEngines));
-  plan.threads =
-      arguments.given("--threads") ? static_cast<std::size_t>(arguments.integer("--threads", 1, 4096)) : cores();
+  plan.threads = arguments.given("--threads")  ? static_cast<std::size_t>(arguments.integer("--threads", 1, 4096))
+                 : plan.engine == Engine::kMpi ? 1
+                                               : cores();
   check(plan, arguments.where());
   return plan;
 }

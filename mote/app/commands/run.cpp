@@ -1,5 +1,10 @@
+#include "mote/app/commands/run.hpp"
+
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -11,12 +16,15 @@
 #include "mote/app/commands/plan_options.hpp"
 #include "mote/app/files/output.hpp"
 #include "mote/app/files/run_files.hpp"
+#include "mote/app/files/team_checkpoint.hpp"
 #include "mote/app/files/text.hpp"
 #include "mote/app/terminal/progress.hpp"
 #include "mote/app/terminal/signals.hpp"
 
 namespace mote {
 namespace {
+
+using Clock = std::chrono::steady_clock;
 
 void print_summary(const RunRecord& record, const Summary& s) {
   fmt::print("{}  {}  N = {}  seed {}  {} engine\n", record.model, name_of(record.plan.filter), record.plan.particles,
@@ -43,59 +51,135 @@ void protect_inputs(OutputSet& outputs, const Arguments& arguments) {
     if (setting.starts_with("file=")) outputs.protect(setting.substr(5));
 }
 
-ExitCode run_run(const Arguments& arguments) {
-  const auto start = std::chrono::steady_clock::now();
-  const std::atomic<bool>& stop = stop_flag();
-  const Plan plan = plan_from(arguments);
-  Job job = load_job(arguments.text("MODEL"),
+/// A run before its first step.
+struct Prepared {
+  Clock::time_point start;
+  Plan plan;
+  Job job;
+  RunRequest request;
+  OutputSet outputs;
+  Output *estimates = nullptr, *summary = nullptr, *report = nullptr, *dump = nullptr;
+  std::optional<CheckpointFile> checkpoint;
+};
+
+/// Refuses what a team cannot do: whatever needs all particles in one place.
+void check_for_team(const Arguments& arguments) {
+  for (const std::string option : {"--estimate", "--dump-particles"})
+    if (arguments.given(option))
+      throw Refusal(ExitCode::kWrongUse, {arguments.where(), "--engine mpi", "no " + option + " beside it", option,
+                                          "Pass --engine simd, or leave " + option + " out."});
+}
+
+void open_outputs(Prepared& run, const Arguments& arguments) {
+  protect_inputs(run.outputs, arguments);
+  run.outputs.reserve(arguments.text("--checkpoint"));
+  run.estimates = run.outputs.open(arguments.text("--out"));
+  run.summary = run.outputs.open(arguments.text("--summary"));
+  run.report = run.outputs.open(arguments.text("--report"));
+  run.dump = run.outputs.open(arguments.text("--dump-particles"));
+}
+
+/// Reads and checks everything; the outputs are this process's if it writes them.
+void prepare(Prepared& run, const Arguments& arguments, Team* team, bool writes) {
+  run.start = Clock::now();
+  run.plan = plan_from(arguments);
+  run.plan.team = team;
+  if (team != nullptr) {
+    check_for_team(arguments);
+    check(run.plan, arguments.where());
+  }
+  run.job = load_job(arguments.text("MODEL"),
                      arguments.required("--data", "a CSV file with the recording", "Pass --data obs.csv."),
                      arguments.text("--truth"), arguments.list("--set"), arguments.where());
-  job.command = arguments.command_line();
-  RunRequest request = request_for(job, arguments.list("--estimate"), arguments.where());
-  request.stop = &stop;
-  OutputSet outputs;
-  protect_inputs(outputs, arguments);
-  outputs.reserve(arguments.text("--checkpoint"));
-  Output* estimates = outputs.open(arguments.text("--out"));
-  Output* summary_file = outputs.open(arguments.text("--summary"));
-  Output* report = outputs.open(arguments.text("--report"));
-  Output* dump = outputs.open(arguments.text("--dump-particles"));
-  if (dump != nullptr) {
-    dump->write(particles_header(request.states));
-    request.dump = [dump](Step t, const WeightedSet& set) { write_particles(*dump, t, set); };
+  run.job.command = arguments.command_line();
+  run.request = request_for(run.job, arguments.list("--estimate"), arguments.where());
+  check_memory(run.plan, run.job, arguments.where());
+  if (!writes) return;
+  open_outputs(run, arguments);
+  run.checkpoint = checkpoint_from(arguments, run.plan, run.job);
+  if (run.checkpoint && run.checkpoint->found())
+    run.job.notes.push_back(arguments.text("--checkpoint") + ": note: the run goes on from there.");
+  for (const std::string& note : notes_on_unread(arguments, run.plan)) run.job.notes.push_back(note);
+  for (const std::string& note : run.job.notes) fmt::print(stderr, "{}\n", printable(note));
+}
+
+/// Writes what was asked for.
+void publish(Prepared& run, RunRecord& record) {
+  record.wall_seconds = std::chrono::duration<double>(Clock::now() - run.start).count();
+  const Summary summary = summarise(record, run.job.truth ? &*run.job.truth : nullptr);
+  if (run.estimates != nullptr) run.estimates->write(estimates_csv(record));
+  if (run.summary != nullptr) run.summary->write(summary_json(record, summary).dump(2) + "\n");
+  if (run.report != nullptr) run.report->write(report_for(run.job, record, summary));
+  run.outputs.commit();
+  if (run.checkpoint) run.checkpoint->remove();
+  if (!run.outputs.on_standard_output()) print_summary(record, summary);
+}
+
+/// Does `work` on every rank; what stops one of them stops all: the first of these says it.
+void together(Team& team, const std::function<void()>& work) {
+  std::optional<Refusal> refusal;
+  try {
+    work();
+  } catch (const Refusal& caught) {
+    refusal = caught;
   }
-  std::optional<CheckpointFile> checkpoint = checkpoint_from(arguments, plan, job);
-  if (checkpoint) request.checkpoint = &*checkpoint;
-  if (checkpoint && checkpoint->found())
-    job.notes.push_back(arguments.text("--checkpoint") + ": note: the run goes on from there.");
-  for (const std::string& note : notes_on_unread(arguments, plan)) job.notes.push_back(note);
-  for (const std::string& note : job.notes) fmt::print(stderr, "{}\n", printable(note));
-  RunRecord record;
-  {
-    Progress progress("steps");
-    request.progress = [&](std::size_t done, std::size_t all) { progress.update(done, all); };
-    record = run_job(job, plan, request, arguments.where());
-  }
-  if (record.interrupted)
-    throw Refusal(ExitCode::kInterrupted,
-                  fmt::format("{}: interrupted after {} of {} steps; {}.", arguments.where(), record.rows.size(),
-                              job.recording.steps.size(),
-                              checkpoint ? "the same command goes on from " + arguments.text("--checkpoint")
-                                         : "no file was written"));
-  record.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const Summary summary = summarise(record, job.truth ? &*job.truth : nullptr);
-  if (estimates != nullptr) estimates->write(estimates_csv(record));
-  if (summary_file != nullptr) summary_file->write(summary_json(record, summary).dump(2) + "\n");
-  if (report != nullptr) report->write(report_for(job, record, summary));
-  outputs.commit();
-  if (checkpoint) checkpoint->remove();
-  if (!outputs.on_standard_output()) print_summary(record, summary);
-  return ExitCode::kDone;
+  const auto codes = team.gather(refusal ? static_cast<std::uint32_t>(refusal->code()) : 0U);
+  const auto stopped = std::find_if(codes.begin(), codes.end(), [](std::uint32_t code) { return code != 0; });
+  if (stopped == codes.end()) return;
+  const bool first = team.rank() == static_cast<std::size_t>(stopped - codes.begin());
+  throw CommonRefusal(refusal ? *refusal : Refusal(static_cast<ExitCode>(*stopped), ""), first);
 }
 
 }  // namespace
 
-Command run_command() {
+ExitCode run_alone(const Arguments& arguments) {
+  const std::atomic<bool>& stop = stop_flag();  // from here on, also while files are read
+  Prepared run;
+  prepare(run, arguments, nullptr, true);
+  run.request.stop = &stop;
+  if (run.checkpoint) run.request.checkpoint = &*run.checkpoint;
+  if (run.dump != nullptr) {
+    run.dump->write(particles_header(run.request.states));
+    run.request.dump = [&run](Step t, const WeightedSet& set) { write_particles(*run.dump, t, set); };
+  }
+  RunRecord record;
+  {
+    Progress progress("steps");
+    run.request.progress = [&](std::size_t done, std::size_t all) { progress.update(done, all); };
+    record = run_job(run.job, run.plan, run.request, arguments.where());
+  }
+  if (record.interrupted)
+    throw Refusal(ExitCode::kInterrupted,
+                  fmt::format("{}: interrupted after {} of {} steps; {}.", arguments.where(), record.rows.size(),
+                              run.job.recording.steps.size(),
+                              run.checkpoint ? "the same command goes on from " + arguments.text("--checkpoint")
+                                             : "no file was written"));
+  publish(run, record);
+  return ExitCode::kDone;
+}
+
+ExitCode run_in_team(const Arguments& arguments, Team& team) {
+  const bool writes = team.rank() == 0;
+  Prepared run;
+  together(team, [&] { prepare(run, arguments, &team, writes); });
+  RunRecord record;
+  try {
+    TeamCheckpoint checkpoint(team, run.checkpoint ? &*run.checkpoint : nullptr);
+    if (arguments.given("--checkpoint")) run.request.checkpoint = &checkpoint;
+    // a proposal that the model does not have is refused, and a step collapses, on all ranks alike
+    const auto filter = run.job.model->filter(run.plan, arguments.where());
+    record = run_filter(*filter, run.job, run.plan, run.request);
+  } catch (const Refusal& refusal) {
+    if (refusal.code() == ExitCode::kCannotWrite || refusal.code() == ExitCode::kBadData) throw;  // a checkpoint's
+    throw CommonRefusal(refusal, writes);
+  }
+  together(team, [&] {
+    if (writes) publish(run, record);
+  });
+  return ExitCode::kDone;
+}
+
+Command run_command(std::function<ExitCode(const Arguments&)> team) {
   std::vector<OptionSpec> options{
       {"--data", "FILE", "", "recording as CSV: t, then the model's columns; must be given", "Data"},
       {"--truth", "FILE", "", "true states as CSV, to score against [none]", "Data"},
@@ -115,7 +199,9 @@ Command run_command() {
           "Filter a recording",
           {{"MODEL", "a model of the catalogue (see mote models)"}},
           std::move(options),
-          run_run,
+          [team = std::move(team)](const Arguments& arguments) {
+            return arguments.text("--engine") == name_of(Engine::kMpi) ? team(arguments) : run_alone(arguments);
+          },
           "Exit codes: 0 done, 2 wrong use, 3 bad data, 4 collapsed, 5 outside tool, 6 cannot write, 130 interrupted."};
 }
 

@@ -149,12 +149,10 @@ bool CheckpointFile::resume(const KeepRun& run) {
   return true;
 }
 
-void CheckpointFile::step_done(const KeepRun& run) {
+bool CheckpointFile::due() {
   ++steps_;
-  if (is_time()) write(run);
+  return every_ ? steps_ >= *every_ : Clock::now() - last_ >= pause_;
 }
-
-bool CheckpointFile::is_time() const { return every_ ? steps_ >= *every_ : Clock::now() - last_ >= pause_; }
 
 void CheckpointFile::write(const KeepRun& run) {
   const Clock::time_point start = Clock::now();

@@ -35,8 +35,16 @@ class CheckpointFile final : public Checkpoint {
   bool found() const { return state_at_.has_value(); }
 
   bool resume(const KeepRun& run) override;
-  void step_done(const KeepRun& run) override;
+  void step_done(const KeepRun& run) override {
+    if (due()) write(run);
+  }
   void stopped(const KeepRun& run) override { write(run); }
+
+  /// Counts a step; whether it is time to write.
+  bool due();
+  /// Writes the file; calls run kPasses times, to learn its length first.
+  void write(const KeepRun& run);
+  static constexpr int kPasses = 2;
 
   /// Removes the file: its run is done, and its outputs are written.
   void remove() const;
@@ -46,8 +54,6 @@ class CheckpointFile final : public Checkpoint {
 
   void check_file();
   void check_facts(const RunFacts& kept) const;
-  void write(const KeepRun& run);
-  bool is_time() const;
 
   std::string path_;
   RunFacts facts_;

@@ -22,4 +22,9 @@ struct TrackerEnd {
 /// error   Refusal (kOutsideTool) when that program is not beside this one or does not start
 TrackerEnd run_tracker(const std::vector<std::string>& words);
 
+/// Becomes the program mote-mpi, which loads Open MPI.
+///
+/// error   as hand_over_to_tracker()
+[[noreturn]] void hand_over_to_team(char** words);
+
 }  // namespace mote

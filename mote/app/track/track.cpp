@@ -43,10 +43,11 @@ TrackerOptions options_from(const Arguments& arguments) {
                                         std::string(name_of(options.plan.filter)) +
                                             ", which linearises the observation: a picture has no slope",
                                         "Pass --filter sisr."});
-  if (options.plan.engine == Engine::kSimd)
-    throw Refusal(ExitCode::kWrongUse, {arguments.where(), "--engine",
-                                        "reference: a picture's likelihood is no arithmetic on vectors of particles",
-                                        "simd", "Leave it out; the weights are vectors over pixels anyway."});
+  if (options.plan.engine == Engine::kSimd || options.plan.engine == Engine::kMpi)
+    throw Refusal(
+        ExitCode::kWrongUse,
+        {arguments.where(), "--engine", "reference: a picture's likelihood is no arithmetic on vectors of particles",
+         std::string(name_of(options.plan.engine)), "Leave it out; the weights are vectors over pixels anyway."});
   options.states = static_cast<States>(arguments.choice("--states", {"location", "velocity", "scale", "affine"}));
   options.motion = static_cast<MotionKind>(arguments.choice("--motion", {"walk", "second", "adaptive"}));
   options.likelihood =

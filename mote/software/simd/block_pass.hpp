@@ -27,7 +27,7 @@ enum class Estimates {
   kSpreads,  ///< means and standard deviations
 };
 
-/// Moves, weighs and sums particles block by block; the sums of a step are added in the order of the blocks.
+/// Moves, weighs and sums particles block by block; the sums of a step are added exactly, in whatever order.
 ///
 ///   x ~ g(. | x_{t-1}, y),   l = log p(y | x) + log [p(x | x_{t-1}) / g(x | x_{t-1}, y)],   w = 2^(l log2 e - shift)
 ///
@@ -49,8 +49,7 @@ class BlockPass {
   /// Circular mean and standard deviation of component d, an angle; weights_of(b) are those of block b, in its scale.
   template <class WeightsOf>
   [[gnu::flatten]] Moments circular_moments(const Particles<R>& x, std::size_t d, const WeightsOf& weights_of) const {
-    double c = 0;
-    double s = 0;
+    std::array<ExactSum, 2> sums;  // of weighted cosines and sines
     for (std::size_t b = 0; b < blocks(); ++b) {
       const R* const angles = x.component(d).data() + b * kBlock;
       const R* const weights = weights_of(b);
@@ -64,11 +63,12 @@ class BlockPass {
         sines = lanes::fma(w, direction.sine, sines);
       }
       const double scale = totals_.scale_of(sums_.shift(b));
-      c += scale * lanes::sum(cosines);
-      s += scale * lanes::sum(sines);
+      sums[0].add(scale * lanes::sum(cosines));
+      sums[1].add(scale * lanes::sum(sines));
     }
-    c /= totals_.weight;
-    s /= totals_.weight;
+    if (team_ != nullptr) team_->add(sums);
+    const double c = sums[0].value() / totals_.weight;
+    const double s = sums[1].value() / totals_.weight;
     return {std::atan2(s, c), std::sqrt(std::max(0.0, -2 * std::log(std::min(1.0, std::hypot(c, s)))))};
   }
 
@@ -113,11 +113,15 @@ class BlockPass {
     }
   };
 
-  BlockPass(M model, std::size_t particles, const Particles<R>& like, bool spreads)
+  /// For `particles` of this process; `team`, when not null, has `all` in all.
+  BlockPass(M model, std::size_t particles, const Particles<R>& like, bool spreads, Team* team = nullptr,
+            std::size_t all = 0)
       : model_(std::move(model)),
         proposal_(make_proposal<G>(model_)),
         spreads_(spreads),
-        sums_(particles, like.dimensions()) {
+        team_(team),
+        sums_(particles, like.dimensions(), team, all),
+        moments_(like.dimensions()) {
     note_pattern<Source::kPrior>(like);
     note_pattern<Source::kModel>(like);
   }
@@ -138,12 +142,15 @@ class BlockPass {
   /// Writes or reads the scales of the weights that the next pass may keep.
   void keep(Archive& archive) { archive(sums_); }
   /// Adds up what the blocks of a pass have noted.
-  void add_up() { totals_ = sums_.totals(); }
+  void add_up() {
+    totals_ = sums_.totals();
+    moments_known_ = false;
+  }
   /// Mean and standard deviation of component d of the last pass.
   Moments moments(std::size_t d) const {
-    Moments both = sums_.moments(totals_, d);
-    if (!spreads_) both.sd = kNaN;
-    return both;
+    if (!moments_known_) sums_.moments(totals_, moments_);
+    moments_known_ = true;
+    return {moments_[d].mean, spreads_ ? moments_[d].sd : kNaN};
   }
 
   /// Takes in a step's rows; `like` is any set of particles to try the model on.
@@ -338,7 +345,10 @@ class BlockPass {
   M model_;
   G proposal_;
   bool spreads_;  // sums of squares are formed
+  Team* team_;
   BlockSums sums_;
+  mutable std::vector<Moments> moments_;  // of all components, once one was asked for
+  mutable bool moments_known_ = false;
   Totals totals_;
   std::vector<Row<V>> rows_;
   std::array<lanes::DrawPattern, 4> patterns_;  // by source

@@ -1,12 +1,31 @@
 #include "mote/software/simd/block_sums.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
 #include "mote/base/draws.hpp"
 #include "mote/base/numbers.hpp"
 
 namespace mote {
+namespace {
+
+constexpr double kTooLarge = 1023;  // exponents from here on count as infinity
+constexpr double kLeastExponent = -1022;
+
+/// 2^k for a whole k of at most 1023; 0 where that is no normal number.
+double power_of_two(double k) {
+  if (!(k >= -1022)) return 0;
+  return std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<int>(k) + 1023) << 52U);
+}
+
+/// A k with |value| < 2^k.
+double exponent_above(double value) {
+  return static_cast<double>(static_cast<int>(std::bit_cast<std::uint64_t>(value) >> 52U & 0x7FFU) - 1022);
+}
+
+}  // namespace
 
 std::size_t ChildMap::block_of(std::uint32_t child) const {
   return static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), child) - first.begin()) - 1;
@@ -18,40 +37,77 @@ double Totals::ess() const {
   return square > 0 ? std::min(weight * weight / square, static_cast<double>(particles)) : 0;
 }
 
-double Totals::scale_of(double shift) const { return shift == reference ? 1 : std::exp2(shift - reference); }
+double Totals::scale_of(double shift) const { return power_of_two(shift - reference); }
 
-BlockSums::BlockSums(std::size_t particles, std::size_t dimensions)
+BlockSums::BlockSums(std::size_t particles, std::size_t dimensions, Team* team, std::size_t all)
     : particles_(particles),
       dimensions_(dimensions),
+      team_(team),
+      all_(team == nullptr ? particles : all),
       weights_((particles + kBlock - 1) / kBlock),
       components_(weights_.size() * dimensions) {}
 
 Totals BlockSums::totals() const {
-  Totals all{-kInfinity, 0, 0, particles_};
-  for (const WeightSums& block : weights_) all.reference = std::max(all.reference, block.shift);
-  if (!std::isfinite(all.reference)) return all;
-  for (const WeightSums& block : weights_) {
-    const double scale = all.scale_of(block.shift);
-    all.weight += scale * block.weight;
-    all.square += scale * scale * block.square;
+  Totals totals{-kInfinity, 0, 0, all_, {}, {}};
+  for (const WeightSums& block : weights_) totals.reference = std::max(totals.reference, block.shift);
+  if (team_ != nullptr) team_->largest({&totals.reference, 1});
+  if (!std::isfinite(totals.reference)) return totals;
+  if (alone_in_one_block()) {
+    totals.weight = weights_[0].weight;
+    totals.square = weights_[0].square;
+    return totals;
   }
-  return all;
+  std::array<ExactSum, 2> sums;  // of weights and of their squares
+  for (const WeightSums& block : weights_) {
+    const double scale = totals.scale_of(block.shift);
+    sums[0].add(scale * block.weight);
+    sums[1].add(scale * scale * block.square);
+  }
+  totals.mine = sums[0];
+  add_up_with_team(sums);
+  totals.all = sums[0];
+  totals.weight = sums[0].value();
+  totals.square = sums[1].value();
+  return totals;
 }
 
-Moments BlockSums::moments(const Totals& totals, std::size_t d) const {
-  const auto sum = [&](auto&& term) {
-    double all = 0;
-    for (std::size_t b = 0; b < weights_.size(); ++b)
-      if (weights_[b].weight > 0)
-        all += totals.scale_of(weights_[b].shift) * term(weights_[b].weight, components_[b * dimensions_ + d]);
-    return all / totals.weight;
+/// aligned_[d] = sum over the blocks of term(b, d), in the scale of the totals. The largest of the terms says where the
+/// fixed point is, so that none is too large or too small for it; infinity where one is not finite. A
+/// single block's terms are the sums.
+template <class Term>
+void BlockSums::add_aligned(const Totals& totals, const Term& term) const {
+  const auto each = [&](const auto& take) {
+    for (std::size_t b = 0; b < weights_.size(); ++b) {
+      if (!(weights_[b].weight > 0)) continue;
+      const double scale = totals.scale_of(weights_[b].shift);
+      for (std::size_t d = 0; d < dimensions_; ++d)
+        take(d, scale * term(d, weights_[b].weight, components_[b * dimensions_ + d]));
+    }
   };
-  const double mean = sum([](double w, const ComponentSums& c) { return c.first + c.centre * w; });
-  const double variance = sum([&](double w, const ComponentSums& c) {
-    const double offset = c.centre - mean;
-    return c.second + offset * (2 * c.first + offset * w);
+  aligned_.assign(dimensions_, 0.0);
+  if (alone_in_one_block()) return each([&](std::size_t d, double value) { aligned_[d] = value; });
+  exponents_.assign(dimensions_, kLeastExponent);
+  each([&](std::size_t d, double value) { exponents_[d] = std::max(exponents_[d], exponent_above(value)); });
+  if (team_ != nullptr) team_->largest(exponents_);
+  exact_.assign(dimensions_, {});
+  for (std::size_t d = 0; d < dimensions_; ++d) aligned_[d] = power_of_two(-exponents_[d]);
+  each([&](std::size_t d, double value) {
+    if (exponents_[d] < kTooLarge) exact_[d].add(value * aligned_[d]);
   });
-  return {mean, std::sqrt(std::max(0.0, variance))};
+  add_up_with_team(exact_);
+  for (std::size_t d = 0; d < dimensions_; ++d)
+    aligned_[d] = exponents_[d] < kTooLarge ? exact_[d].value() * power_of_two(exponents_[d]) : kInfinity;
+}
+
+void BlockSums::moments(const Totals& totals, std::span<Moments> all) const {
+  add_aligned(totals, [](std::size_t, double w, const ComponentSums& c) { return c.first + c.centre * w; });
+  for (std::size_t d = 0; d < dimensions_; ++d) all[d].mean = aligned_[d] / totals.weight;
+  const auto about_the_mean = [&](std::size_t d, double w, const ComponentSums& c) {
+    const double offset = c.centre - all[d].mean;
+    return c.second + offset * (2 * c.first + offset * w);
+  };
+  add_aligned(totals, about_the_mean);
+  for (std::size_t d = 0; d < dimensions_; ++d) all[d].sd = std::sqrt(std::max(0.0, aligned_[d] / totals.weight));
 }
 
 void BlockSums::map_children(const Totals& totals, double u, ChildMap& map) const {
@@ -59,21 +115,26 @@ void BlockSums::map_children(const Totals& totals, double u, ChildMap& map) cons
   map.position.resize(blocks + 1);
   map.children_per_weight.resize(blocks);
   map.first.resize(blocks + 1);
-  const auto n = static_cast<double>(particles_);
+  const auto n = static_cast<double>(all_);
   const double per_weight = n / totals.weight;
-  double before = 0;
-  for (std::size_t b = 0; b < blocks; ++b) {
-    const double scale = totals.scale_of(weights_[b].shift);
-    map.position[b] = before * per_weight - u;
-    map.children_per_weight[b] = per_weight * scale;
-    map.first[b] = static_cast<std::uint32_t>(std::clamp(std::ceil(map.position[b]), 0.0, n));
-    before += scale * weights_[b].weight;
+  if (alone_in_one_block()) {
+    map.position = {-u, n - u};
+    map.children_per_weight[0] = per_weight;
+    map.first[0] = 0;
+    map.first[1] = static_cast<std::uint32_t>(all_);
+    return;
   }
-  map.position[blocks] = before * per_weight - u;
-  // the last children are the last block's that has weight, however the sums were rounded
-  const auto all = static_cast<std::uint32_t>(particles_);
-  map.first[blocks] = all;
-  for (std::size_t b = blocks; b-- > 0 && !(weights_[b].weight > 0);) map.first[b] = all;
+  ExactSum before = team_ == nullptr ? ExactSum{} : team_->before(totals.mine);
+  for (std::size_t b = 0; b <= blocks; ++b) {
+    const double position = before.value() * per_weight - u;
+    // what lies behind all weight begins behind the last child, however the product was rounded
+    map.first[b] = static_cast<std::uint32_t>(before == totals.all ? n : std::clamp(std::ceil(position), 0.0, n));
+    map.position[b] = position;
+    if (b == blocks) break;
+    const double scale = totals.scale_of(weights_[b].shift);
+    map.children_per_weight[b] = per_weight * scale;
+    before.add(scale * weights_[b].weight);
+  }
 }
 
 }  // namespace mote

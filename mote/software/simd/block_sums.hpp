@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "mote/base/archive.hpp"
+#include "mote/base/draws.hpp"
+#include "mote/engine/team.hpp"
 #include "mote/filter/estimate.hpp"
 
 namespace mote {
@@ -14,7 +16,8 @@ namespace mote {
 ///
 ///   position(b) = N sum_{i before block b} w_i / sum_i w_i - u,   first(b) = ceil(position(b))
 ///
-/// shape   (blocks + 1,); first.front() = 0, first.back() = N; blocks without weight have no children
+/// shape   (blocks + 1,); blocks without weight have no children. The blocks are those of one process, the children are
+///         numbered over all: first.front() = 0 on the first rank, first.back() = N on the last
 struct ChildMap {
   std::vector<double> position;
   std::vector<std::uint32_t> first;
@@ -26,12 +29,13 @@ struct ChildMap {
   std::size_t block_of(std::uint32_t child) const;
 };
 
-/// Sums over all particles. Weights are in units of 2^reference.
+/// Sums over all particles, of every rank. Weights are in units of 2^reference.
 struct Totals {
   double reference = 0;  ///< largest shift of a block; -infinity when all weights are zero
   double weight = 0;     ///< sum of weights
   double square = 0;     ///< sum of their squares
   std::size_t particles = 0;
+  ExactSum all, mine;  ///< weights of all ranks, and of this one
 
   bool collapsed() const { return !(weight > 0); }
   double log_sum() const;  ///< log of the sum of weights, nat
@@ -49,12 +53,14 @@ struct ComponentSums {
   double centre = 0, first = 0, second = 0;
 };
 
-/// The sums of every block, each written by whoever worked on the block, added in order.
+/// The sums of every block of a process, each written by whoever worked on the block. What they make up over all blocks
+/// of a team is summed exactly: the same bits for any number of threads and ranks.
 ///
-/// cost    O(N / 1024) for every total; memory (3 + 3 D) 8 bytes a block
+/// cost    O(N / 1024) for every total, and with a team a few reductions; memory (3 + 3 D) 8 bytes a block
 class BlockSums {
  public:
-  BlockSums(std::size_t particles, std::size_t dimensions);
+  /// For this process's `particles`; `team`, when not null, has `all` in all.
+  BlockSums(std::size_t particles, std::size_t dimensions, Team* team = nullptr, std::size_t all = 0);
 
   std::size_t blocks() const { return weights_.size(); }
   std::size_t particles() const { return particles_; }
@@ -67,12 +73,24 @@ class BlockSums {
   void keep(Archive& archive) { archive.fill(std::span(weights_)); }
 
   Totals totals() const;
-  Moments moments(const Totals& totals, std::size_t d) const;
+  /// Mean and standard deviation of every component.
+  void moments(const Totals& totals, std::span<Moments> all) const;
   /// Fills the map for u in (0, 1).
   void map_children(const Totals& totals, double u, ChildMap& map) const;
 
  private:
+  void add_up_with_team(std::span<ExactSum> sums) const {
+    if (team_ != nullptr) team_->add(sums);
+  }
+  bool alone_in_one_block() const { return all_ <= kBlock; }
+  template <class Term>
+  void add_aligned(const Totals& totals, const Term& term) const;
+
   std::size_t particles_, dimensions_;
+  Team* team_;
+  std::size_t all_;
+  mutable std::vector<double> exponents_, aligned_;  // scratch of moments()
+  mutable std::vector<ExactSum> exact_;
   std::vector<WeightSums> weights_;
   std::vector<ComponentSums> components_;
 };

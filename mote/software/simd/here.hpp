@@ -26,10 +26,10 @@ std::unique_ptr<Filter> vector_filter(const M& model, const Plan& plan, Estimate
       return std::make_unique<VectorMetropolisFilter<M, R>>(model, plan.particles, plan.seed, plan.chain,
                                                             plan.on_collapse, plan.threads, estimates);
   return std::make_unique<VectorImportanceFilter<M, R, G>>(model, plan.particles, plan.seed, plan.selection,
-                                                           plan.on_collapse, plan.threads, estimates);
+                                                           plan.on_collapse, plan.threads, estimates, plan.team);
 }
 
-/// A filter of the SIMD engine for a plan that has been checked and that simd_has().
+/// A filter of the SIMD engine for a plan that has been checked and that simd_has(), or team_has() where it has a team.
 ///
 /// error   Refusal (kWrongUse) when the model has no proposal of that name, or its weights do not exist
 template <Model M>

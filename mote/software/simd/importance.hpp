@@ -4,11 +4,12 @@
 /// A step visits every block of 1024 particles once, and what a block needs stays in the first-level cache: its parents
 /// are expanded from the survivors of the step before, moved, weighed against the block's largest weight and summed.
 /// Selection only notes where children begin; the next step writes them as it moves them. So a step has one barrier,
-/// after which the sums of the blocks are added in order: results do not depend on the number of threads.
+/// after which the sums of the blocks are added exactly: results do not depend on the number of threads, nor on the
+/// number of ranks where a team of processes shares the blocks.
 
 #include "mote/filter/select.hpp"
 #include "mote/software/simd/block_pass.hpp"
-#include "mote/software/simd/survivors.hpp"
+#include "mote/software/simd/migration.hpp"
 #include "mote/software/threads.hpp"
 
 namespace mote {
@@ -17,7 +18,9 @@ inline namespace HWY_NAMESPACE {
 /// SISR on vectors: step by step ImportanceFilter with a WholeSelector, within rounding and the normal table's error.
 /// Weights are of type R, each block in a scale of its own.
 ///
-/// shape   N particles; R float or double
+/// shape   N particles; R float or double; with a team, which needs a block a rank, systematic selection with exponent
+/// 1
+///         only, and weighted() is of this rank's particles
 /// error   none; a collapsed step is reported, see OnCollapse
 /// cost    O(N) a step; memory (2 D + 2) sizeof(R) N bytes, a column more with an ESS threshold below 1 or a selection
 ///         exponent; with systematic resampling at every step nothing is allocated after the first steps
@@ -26,19 +29,24 @@ template <Model M, class R, class G = Prior>
 class VectorImportanceFilter final : public Filter {
  public:
   VectorImportanceFilter(M model, std::size_t particles, std::uint64_t seed, const SelectionOptions& selection,
-                         OnCollapse on_collapse, std::size_t threads, Estimates estimates = Estimates::kSpreads)
+                         OnCollapse on_collapse, std::size_t threads, Estimates estimates = Estimates::kSpreads,
+                         Team* team = nullptr)
       : seed_(seed),
+        share_(particles, team),
         selection_(selection),
         on_collapse_(on_collapse),
         carries_(selection.ess_threshold < 1 || selection.exponent != 1),
         crew_(threads),
-        now_(model.states().size(), particles),
-        next_(model.states().size(), particles),
-        pass_(std::move(model), particles, now_, estimates == Estimates::kSpreads) {
+        now_(model.states().size(), share_.count),
+        next_(model.states().size(), share_.count),
+        pass_(std::move(model), share_.count, now_, estimates == Estimates::kSpreads, team, particles) {
+    if (team != nullptr) migration_.emplace(particles, now_.dimensions(), *team);
     weights_.resize(whole_blocks());
     next_weights_.resize(whole_blocks());
     if (carries_) log_weights_.resize(whole_blocks());
     for (std::size_t k = 0; k < crew_.shares(pass_.blocks()); ++k) desks_.emplace_back(now_.dimensions());
+    if (migration_)
+      for (Desk& desk : desks_) desk.spare.resize(kBlock);
     pass<Source::kPrior, Weights::kEqual>(0, Purpose::kPrior);
   }
 
@@ -54,7 +62,7 @@ class VectorImportanceFilter final : public Filter {
 
   StepReport update(Step t, Rows<double> rows) override {
     pass_.take(rows, now_);
-    const double mass = level_ ? std::log(static_cast<double>(now_.size())) : 0;
+    const double mass = level_ ? std::log(static_cast<double>(share_.all)) : 0;
     if (level_)
       pass<Source::kProposal, Weights::kFresh>(t, Purpose::kMove);
     else
@@ -69,7 +77,7 @@ class VectorImportanceFilter final : public Filter {
   }
 
   void select(Step t, StepReport& report) override {
-    report.selected = report.ess <= selection_.ess_threshold * static_cast<double>(now_.size());
+    report.selected = report.ess <= selection_.ess_threshold * static_cast<double>(share_.all);
     if (!report.selected) return;
     const Draws draws{seed_, static_cast<std::uint32_t>(t)};
     if (selection_.scheme == &systematic_scheme() && selection_.exponent == 1) {
@@ -113,8 +121,9 @@ class VectorImportanceFilter final : public Filter {
   /// What one share of a step works with.
   struct Desk : Pass::Desk {
     SurvivorStream<R, Pass::kD> stream;
+    Particles<R> spare;  // of a block, where a team shares the particles
 
-    explicit Desk(std::size_t dimensions) : Pass::Desk(dimensions), stream(dimensions) {}
+    explicit Desk(std::size_t dimensions) : Pass::Desk(dimensions), stream(dimensions), spare(dimensions, 0) {}
   };
 
   std::size_t whole_blocks() const { return pass_.blocks() * kBlock; }
@@ -125,14 +134,16 @@ class VectorImportanceFilter final : public Filter {
     const bool moves_house = parents_ != Parents::kInPlace;
     Particles<R>& to = moves_house ? next_ : now_;
     AlignedVector<R>& weights = moves_house ? next_weights_ : weights_;
+    if (migration_ && parents_ == Parents::kMapped)
+      migration_->move(map_, now_, weights_.data(), desks_[0].stream, desks_[0].columns);
     crew_.run(pass_.blocks(), [&](std::size_t share, std::size_t first, std::size_t last) {
       const lanes::SubnormalsAreZero fast;
       Desk& desk = desks_[share];
-      if (parents_ == Parents::kMapped)
-        desk.stream.begin(map_, now_, weights_.data(), static_cast<std::uint32_t>(first * kBlock));
+      if (parents_ == Parents::kMapped) begin_children(desk, first * kBlock);
       for (std::size_t b = first; b < last; ++b) {
         fetch_parents(desk, b);
-        const Address address{seed_, static_cast<std::uint32_t>(t), purpose, static_cast<std::uint32_t>(b)};
+        const Address address{seed_, static_cast<std::uint32_t>(t), purpose,
+                              static_cast<std::uint32_t>(share_.first_block() + b)};
         for (std::size_t d = 0; d < to.dimensions(); ++d) desk.to[d] = to.component(d).data() + b * kBlock;
         pass_.template block<kSource, kWeights>(desk, b, address, weights.data() + b * kBlock,
                                                 carries_ ? log_weights_.data() + b * kBlock : nullptr, mass_);
@@ -146,12 +157,22 @@ class VectorImportanceFilter final : public Filter {
     pass_.add_up();
   }
 
+  void begin_children(Desk& desk, std::size_t first) const {
+    if (migration_)
+      migration_->begin(map_, now_, weights_.data(), first, desk.stream);
+    else
+      desk.stream.begin(map_, now_, weights_.data(), static_cast<std::uint32_t>(first));
+  }
+
   /// Puts the states that block b starts from on the desk: the parents' copies, or its own.
   void fetch_parents(Desk& desk, std::size_t b) {
     const std::size_t start = b * kBlock;
     const std::size_t n = pass_.size_of(b);
     if (parents_ == Parents::kMapped) {
-      desk.stream.write(static_cast<std::uint32_t>(start), n, desk.columns);
+      if (migration_)
+        migration_->fetch(start, n, desk.stream, desk.columns, desk.spare);
+      else
+        desk.stream.write(static_cast<std::uint32_t>(start), n, desk.columns);
       return;
     }
     for (std::size_t d = 0; d < now_.dimensions(); ++d) {
@@ -196,6 +217,7 @@ class VectorImportanceFilter final : public Filter {
   }
 
   std::uint64_t seed_;
+  Share share_;
   SelectionOptions selection_;
   OnCollapse on_collapse_;
   bool carries_;  // log weights are kept from step to step
@@ -206,6 +228,7 @@ class VectorImportanceFilter final : public Filter {
   std::vector<Desk> desks_;
   Parents parents_ = Parents::kInPlace;
   ChildMap map_;
+  std::optional<Migration<R, Pass::kD>> migration_;  // where a team shares the particles
   std::vector<Index> ancestors_;
   bool level_ = true;  // all particles weigh the same before the next step
   double mass_ = 0;    // log sum of the carried log weights

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "mote/engine/checkpoint_laws.hpp"
+#include "mote/engine/thread_teams.hpp"
 #include "mote/filter/sisr.hpp"
 #include "mote/model/bearings.hpp"
 #include "mote/model/doa.hpp"
@@ -234,6 +235,50 @@ TEST(VectorImportanceFilter, IsResumedBitByBit) {
     }
   EXPECT_EQ(broken_promise<double>(sixteen_states(), plan_of()), "");
   EXPECT_EQ(broken_promise<double>(Bearings{}, plan_of(40000)), "");
+}
+
+/// Whether every rank of a team tells the same, bit by bit, as a filter that is alone.
+template <class R, class M>
+void expect_the_same_on_teams(const M& model, const Plan& plan, const Recording& recording,
+                              const std::vector<std::size_t>& teams) {
+  const auto made = [&](Team* team) {
+    return VectorImportanceFilter<M, R>(model, plan.particles, plan.seed, plan.selection, plan.on_collapse,
+                                        plan.threads, Estimates::kSpreads, team);
+  };
+  auto alone = made(nullptr);
+  const auto expected = rows_of(model, alone, plan, recording);
+  for (const std::size_t ranks : teams) {
+    std::vector<std::vector<EstimateRow>> rows(ranks);
+    ThreadTeams(ranks).run([&](Team& team) {
+      auto filter = made(&team);
+      rows[team.rank()] = rows_of(model, filter, plan, recording);
+    });
+    for (const auto& told : rows)
+      for (std::size_t k = 0; k < expected.size(); ++k)
+        EXPECT_TRUE(laws::same(told[k], expected[k])) << ranks << " ranks, row " << k;
+  }
+}
+
+// Uneven shares, the last block not whole; children that move by a few and, where one block has all the weight, by
+// many.
+TEST(VectorImportanceFilter, TeamsChangeNoBit) {
+  for (const double threshold : {1.0, 0.5, 0.0})
+    for (const std::size_t particles : {8 * kBlock, 20 * kBlock + 77}) {
+      Plan plan = plan_of(particles);
+      plan.selection.ess_threshold = threshold;
+      expect_the_same_on_teams<double>(Ungm<1>{}, plan, recording_of(Ungm<1>{}), {1, 2, 3, 5, 8});
+      expect_the_same_on_teams<float>(Ungm<1>{}, plan, recording_of(Ungm<1>{}), {2, 5});
+    }
+  Recording sharp = recording_of(Ungm<1>{{.r = 1e-7}});
+  expect_the_same_on_teams<double>(Ungm<1>{{.r = 1e-7}}, plan_of(9 * kBlock), sharp, {2, 3, 9});
+  expect_the_same_on_teams<double>(Bearings{}, plan_of(9 * kBlock + 1), recording_of(Bearings{}), {3, 10});
+  expect_the_same_on_teams<double>(Doa{{}, 3}, plan_of(9 * kBlock + 1), recording_of(Doa{{}, 3}), {3});
+  expect_the_same_on_teams<double>(sixteen_states(), plan_of(3 * kBlock), recording_of(sixteen_states()), {3});
+  for (const OnCollapse policy : {OnCollapse::kKeep, OnCollapse::kReset}) {
+    Plan plan = plan_of(5 * kBlock);
+    plan.on_collapse = policy;
+    expect_the_same_on_teams<double>(Doomed{}, plan, recording_of(Doomed{}), {2, 5});
+  }
 }
 
 TEST(VectorImportanceFilter, MeansAloneAreTheSameMeans) {
