@@ -115,7 +115,8 @@ class NormalPolynomials<float> {
         [](auto x) { return hn::OrAnd(hn::Set(Tag{}, 0x3F800000U), x, hn::Set(Tag{}, 0x7FFFFFU)); }, u);
     const Vector<float> s = Vector<float>(v.template as<float>()) - Vector<float>(1.5F);
     const auto exponent = Registers<std::uint32_t>::map([](auto x) { return hn::ShiftRight<23>(x); }, u);
-    return horner<NormalTable::kDegreeFloat>(s, [&](std::size_t j) { return entry(j, exponent); });
+    return horner<NormalTable::kDegreeFloat>(
+        s, [&](std::size_t j) __attribute__((always_inline)) { return entry(j, exponent); });
   }
 
  private:
@@ -123,6 +124,15 @@ class NormalPolynomials<float> {
 #if HWY_TARGET <= HWY_AVX3
     using Register = Registers<float>::Register;
     return Vector<float>(Registers<float>{{ Register { _mm512_permutexvar_ps(exponent.r[0].raw, c_[j].r[0].raw) } }});
+#elif HWY_TARGET == HWY_AVX2
+    return Vector<float>(Registers<float>::map(
+        [&](auto e) {
+          const __m256 low = _mm256_permutevar8x32_ps(c_[j].r[0].raw, e.raw);
+          const __m256 high = _mm256_permutevar8x32_ps(c_[j].r[1].raw, e.raw);
+          const __m256 which = _mm256_castsi256_ps(_mm256_slli_epi32(e.raw, 28));  // bit 3 of the exponent as sign
+          return Registers<float>::Register{_mm256_blendv_ps(low, high, which)};
+        },
+        exponent));
 #else
     return Vector<float>(Registers<float>::map(
         [&](auto e) {
@@ -158,7 +168,8 @@ class NormalPolynomials<double> {
         u);
     const Vector<double> s = Vector<double>(v.template as<double>()) - Vector<double>(1.5);
     const auto exponent = Registers<std::uint64_t>::map([](auto x) { return hn::ShiftRight<52>(x); }, u);
-    return horner<NormalTable::kDegreeDouble>(s, [&](std::size_t j) { return entry(part[j], exponent); });
+    return horner<NormalTable::kDegreeDouble>(
+        s, [&](std::size_t j) __attribute__((always_inline)) { return entry(part[j], exponent); });
   }
   static MOTE_INLINE Vector<double> entry(const std::array<double, 8>& row, const Registers<std::uint64_t>& exponent) {
 #if HWY_TARGET <= HWY_AVX3
@@ -167,6 +178,20 @@ class NormalPolynomials<double> {
         { Register {
           _mm512_permutexvar_pd(exponent.r[0].raw, _mm512_load_pd(row.data()))
         } }});
+#elif HWY_TARGET == HWY_AVX2
+    return Vector<double>(Registers<double>::map(
+        [&](auto e) {
+          // a double is two floats: 2 e and 2 e + 1 in the halves of the lane
+          const __m256i twice = _mm256_add_epi64(e.raw, e.raw);
+          const __m256i pair = _mm256_or_si256(_mm256_or_si256(twice, _mm256_slli_epi64(twice, 32)),
+                                               _mm256_set1_epi64x(std::int64_t{1} << 32U));
+          const __m256 low = _mm256_permutevar8x32_ps(_mm256_load_ps(reinterpret_cast<const float*>(row.data())), pair);
+          const __m256 high =
+              _mm256_permutevar8x32_ps(_mm256_load_ps(reinterpret_cast<const float*>(row.data() + 4)), pair);
+          const __m256d which = _mm256_castsi256_pd(_mm256_slli_epi64(e.raw, 61));  // bit 2 of the exponent as sign
+          return Registers<double>::Register{_mm256_blendv_pd(_mm256_castps_pd(low), _mm256_castps_pd(high), which)};
+        },
+        exponent));
 #else
     return Vector<double>(Registers<double>::map(
         [&](auto e) {

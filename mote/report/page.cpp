@@ -56,6 +56,17 @@ std::string facts_part(const std::vector<Fact>& facts) {
   return section("facts", "Facts", fmt::format("<dl class=\"facts\">\n{}</dl>\n", list));
 }
 
+std::string pictures_part(const std::vector<Picture>& pictures) {
+  if (pictures.empty()) return {};
+  std::string figures;
+  for (const Picture& picture : pictures)
+    figures += fmt::format(
+        "<figure class=\"picture\"><figcaption>{0}</figcaption><img alt=\"{0}\" "
+        "src=\"data:image/{1};base64,{2}\"></figure>\n",
+        escaped(picture.title), picture.bytes.starts_with("\xFF\xD8") ? "jpeg" : "png", base64(picture.bytes));
+  return section("pictures", "Pictures", figures);
+}
+
 std::string charts_part(const std::vector<Chart>& charts) {
   if (charts.empty() || !plots_built_in()) return {};
   std::string figures =
@@ -149,8 +160,8 @@ std::string html(const Page& page) {
                                 fmt::arg("style", style_text()));
   if (!page.summary.empty()) out += fmt::format("<p class=\"summary\">{}</p>\n", escaped(page.summary));
   out += "</header>\n<main>\n";
-  out += facts_part(page.facts) + charts_part(page.charts) + tables_part(page.tables) + notes_part(page) +
-         command_part(page.command);
+  out += facts_part(page.facts) + pictures_part(page.pictures) + charts_part(page.charts) + tables_part(page.tables) +
+         notes_part(page) + command_part(page.command);
   out += fmt::format("</main>\n<footer>mote {}</footer>\n", MOTE_VERSION);
   return out + scripts(page.charts) + "</body>\n</html>\n";
 }

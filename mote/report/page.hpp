@@ -44,11 +44,17 @@ struct Table {
   std::vector<std::vector<std::string>> rows = {};
 };
 
+/// A picture, as the bytes of a PNG or JPEG file.
+struct Picture {
+  std::string title, bytes;
+};
+
 /// Everything a report shows, in the order it is shown; empty parts are left out.
 struct Page {
   std::string title, summary = {};
   std::string command = {};  ///< the command line that made the result
   std::vector<Fact> facts = {};
+  std::vector<Picture> pictures = {};
   std::vector<Chart> charts = {};
   std::vector<Table> tables = {};
   std::vector<std::string> notes = {};

@@ -57,6 +57,19 @@ TEST(Page, ShowsFactsTablesNotesAndCommand) {
   EXPECT_NE(text.find("<footer>mote " MOTE_VERSION "</footer>"), std::string::npos);
 }
 
+TEST(Page, PicturesAreInside) {
+  for (const auto& [bytes, letters] : std::vector<std::pair<std::string, std::string>>{
+           {"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"\xFF\xFE\xFD", "//79"}})
+    EXPECT_EQ(base64(bytes), letters);
+  const std::string text =
+      html({.title = "Run", .pictures = {{"Frames \"1\"", "\x89PNG"}, {"Frame 2", "\xFF\xD8\xFF"}}});
+  EXPECT_NE(text.find("<figcaption>Frames &quot;1&quot;</figcaption><img alt=\"Frames &quot;1&quot;\" "
+                      "src=\"data:image/png;base64,iVBORw==\">"),
+            std::string::npos);
+  EXPECT_NE(text.find("src=\"data:image/jpeg;base64,/9j/\""), std::string::npos);
+  EXPECT_EQ(html({.title = "Run"}).find("<img"), std::string::npos);
+}
+
 TEST(Page, EscapesEveryText) {
   EXPECT_EQ(escaped(kNasty), kNastyEscaped);
   const std::string text = html(full_page(kNasty));

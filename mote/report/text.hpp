@@ -13,4 +13,7 @@ std::string_view script_text();  // the bundled plots; empty if they were not bu
 /// `text` with & < > " ' replaced, so that it is text between tags and inside a quoted attribute.
 std::string escaped(std::string_view text);
 
+/// Bytes as text of 64 letters, three bytes in four of them, filled up with "=" (RFC 4648, 4).
+std::string base64(std::string_view bytes);
+
 }  // namespace mote::report

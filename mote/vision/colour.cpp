@@ -36,6 +36,20 @@ void ColourModel::learn(const cv::Mat& window, double w, double h, double rate) 
   empty_ = false;
 }
 
+double ColourModel::likeness(const cv::Mat& window, double w, double h) const {
+  std::array<float, kBins> inside{};
+  float sum = 0;
+  for (int y = 0; y < window.rows; ++y)
+    for (int x = 0; x < window.cols; ++x) {
+      const double u = std::abs(x + 0.5 - window.cols / 2.0) / (w / 2);
+      const double v = std::abs(y + 0.5 - window.rows / 2.0) / (h / 2);
+      if (u < 0.8 && v < 0.8) ++inside[bin_of(window.at<cv::Vec3b>(y, x))], ++sum;
+    }
+  double likeness = 0;
+  for (std::size_t k = 0; k < kBins; ++k) likeness += std::sqrt(inside[k] / std::max(sum, 1.0F) * target_[k]);
+  return likeness;
+}
+
 cv::Mat ColourModel::chances(const cv::Mat& window) const {
   cv::Mat out(window.size(), CV_32F);
   constexpr float kUnseen = 1e-4F;  // a colour that was never seen is as likely the one as the other

@@ -16,6 +16,12 @@ class ColourModel {
  public:
   /// Learns a window (CV_8UC3) whose middle w x h pixels are the target, with rate a; the first time as if a = 1.
   void learn(const cv::Mat& window, double w, double h, double rate);
+  /// How alike the colours of the middle w x h pixels of a window (CV_8UC3) and those learnt of the target are.
+  ///
+  ///   sum_k sqrt(h_window(k) h_target(k)),   in [0, 1]
+  ///
+  /// source  Comaniciu, Ramesh & Meer 2003, eq. (7): the Bhattacharyya coefficient
+  double likeness(const cv::Mat& window, double w, double h) const;
   /// The chance of every pixel, CV_32F in [0, 1].
   cv::Mat chances(const cv::Mat& window) const;
 

@@ -1,11 +1,14 @@
 #include "mote/vision/confidence.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "mote/base/numbers.hpp"
 
 namespace mote::vision {
 
-double Confidence::score(double response, double lost_share) const {
-  return 0.5 * std::clamp(response / usual_, 0.0, 1.0) + 0.5 * std::max(0.0, 1 - 2 * lost_share);
+double Confidence::score(double response, double log_density) const {
+  return 0.5 * std::clamp(response / usual_, 0.0, 1.0) + 0.5 * std::min(1.0, std::exp(log_density + 0.5));
 }
 
 double Confidence::weight(double score) const {
@@ -13,14 +16,16 @@ double Confidence::weight(double score) const {
   return share * share;
 }
 
-Sighting Confidence::note(double response, double lost_share) {
-  const double now = score(response, lost_share);
+Sighting Confidence::note(double response, double log_density) {
+  const double now = score(response, log_density);
+  ++since_sure_;
   if (!(now >= options_.hidden)) {
     ++hidden_;
     return Sighting::kHidden;
   }
   hidden_ = 0;
   if (now < options_.learn) return Sighting::kUnsure;
+  since_sure_ = 0;
   ++sure_;
   const double rate = std::max(options_.usual_rate, 0.5 / (1.0 + sure_));
   usual_ += weight(now) * rate * (response - usual_);
@@ -29,15 +34,29 @@ Sighting Confidence::note(double response, double lost_share) {
 
 void Confidence::note_search(bool found) {
   gone_ = found ? 0 : gone_ + 1;
-  if (found) hidden_ = 0;
+  ++since_sure_;
+  if (!found) return;
+  hidden_ = 0;
+  since_sure_ = std::min(since_sure_, options_.doubt - 1);
 }
 
-bool Confidence::is_found(double response, double lost_share, double distance) const {
-  constexpr double kSpread = 0.05;  // sides a frame that "near" grows by
+bool Confidence::is_near(double distance) const {
+  constexpr double kSpeed = 0.1;  // sides a frame
+  return distance < 1 + kSpeed * gone_;
+}
+
+double Confidence::needed(double distance) const {
+  constexpr int kAnywhere = 25;  // frames after which the target may be anywhere
   constexpr double kLeniency = 0.002;
-  const bool near = distance < 1 + kSpread * gone_;
-  const double needed = near ? options_.near : options_.far - kLeniency * std::min(gone_, 75);
-  return response >= needed * usual_ && score(response, lost_share) >= options_.found;
+  if (is_near(distance)) return options_.near * usual_;
+  if (gone_ < kAnywhere) return kInfinity;
+  return (options_.far - kLeniency * std::min(gone_, 75)) * usual_;
+}
+
+bool Confidence::is_found(double response, double log_density, double distance) const {
+  const double close = since_sure_ < options_.doubt ? options_.hidden : options_.learn;
+  return response >= needed(distance) &&
+         score(response, log_density) >= (is_near(distance) ? close : options_.far_score);
 }
 
 }  // namespace mote::vision

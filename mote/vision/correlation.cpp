@@ -1,5 +1,6 @@
 #include "mote/vision/correlation.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "mote/base/numbers.hpp"
@@ -17,10 +18,10 @@ cv::Mat spectrum(const cv::Mat& real) {
 }  // namespace
 
 void add_conjugate_product(const cv::Mat& a, const cv::Mat& b, float scale, cv::Mat& target) {
-  for (int row = 0; row < a.rows; ++row) {
-    const auto* x = a.ptr<float>(row);
+  for (int row = 0; row < b.rows; ++row) {
+    const auto* x = a.ptr<float>(std::min(row, a.rows - 1));
     const auto* y = b.ptr<float>(row);
-    auto* out = target.ptr<float>(row);
+    auto* out = target.ptr<float>(std::min(row, target.rows - 1));
     for (int k = 0; k < 2 * a.cols; k += 2) {
       out[k] += scale * (x[k] * y[k] + x[k + 1] * y[k + 1]);
       out[k + 1] += scale * (x[k] * y[k + 1] - x[k + 1] * y[k]);
@@ -31,7 +32,7 @@ void add_conjugate_product(const cv::Mat& a, const cv::Mat& b, float scale, cv::
 void add_power(const cv::Mat& a, float scale, cv::Mat& target) {
   for (int row = 0; row < a.rows; ++row) {
     const auto* x = a.ptr<float>(row);
-    auto* out = target.ptr<float>(row);
+    auto* out = target.ptr<float>(std::min(row, target.rows - 1));
     for (int k = 0; k < a.cols; ++k) out[k] += scale * (x[2 * k] * x[2 * k] + x[2 * k + 1] * x[2 * k + 1]);
   }
 }

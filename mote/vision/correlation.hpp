@@ -36,10 +36,11 @@ class CorrelationFilter {
   cv::Mat denominator_;
 };
 
-/// target += scale conj(a) b, element by element; spectra are CV_32FC2.
+/// target += scale conj(a) b, element by element; spectra are CV_32FC2. A single row of `a` stands for every row of
+/// `b`, and a target of a single row takes the sum over the rows.
 void add_conjugate_product(const cv::Mat& a, const cv::Mat& b, float scale, cv::Mat& target);
 
-/// target += scale |a|^2; target is CV_32F.
+/// target += scale |a|^2, likewise; target is CV_32F.
 void add_power(const cv::Mat& a, float scale, cv::Mat& target);
 
 /// DFT^-1 [ sum / (denominator + lambda) ] on `refine` points a cell.

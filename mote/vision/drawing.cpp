@@ -63,7 +63,7 @@ void Film::fail() const {
 void Film::add(const cv::Mat& frame) {
   ++count_;
   if (pictures_) {
-    if (!cv::imwrite(pictures_->name(count_), frame)) fail();
+    if (!cv::imwrite(file_of(count_), frame)) fail();
     return;
   }
   if (!writer_.isOpened()) {

@@ -31,6 +31,10 @@ class Film {
 
   void add(const cv::Mat& frame);
   void commit();
+  /// The file that the frame of a number, from 1 on, goes to.
+  std::string file_of(std::size_t number) const { return pictures_ ? pictures_->name(number) : path_; }
+  /// Whether every frame goes to a file of its own.
+  bool pictures() const { return pictures_.has_value(); }
 
  private:
   [[noreturn]] void fail() const;

@@ -63,17 +63,14 @@ void ExtentFilter::learn(const View& view, const Box& box, double rate) {
   }
   numerators_ *= 1 - a;
   denominator_ *= 1 - a;
-  for (int row = 0; row < f.rows; ++row) {
-    cv::Mat numerator = numerators_.row(row);
-    add_conjugate_product(wanted_, f.row(row), a, numerator);
-    add_power(f.row(row), a, denominator_);
-  }
+  add_conjugate_product(wanted_, f, a, numerators_);
+  add_power(f, a, denominator_);
 }
 
 ExtentResponse ExtentFilter::respond(const View& view, const Box& box) const {
   const cv::Mat z = ladder(view, box);
   cv::Mat sum = cv::Mat::zeros(1, z.cols, CV_32FC2);
-  for (int row = 0; row < z.rows; ++row) add_conjugate_product(numerators_.row(row), z.row(row), 1, sum);
+  add_conjugate_product(numerators_, z, 1, sum);
   cv::Mat response = response_of(sum, denominator_, options_.regularisation, kRefine);
   return {{response.begin<float>(), response.end<float>()},
           std::log(options_.ratio) / kRefine,

@@ -11,7 +11,7 @@ struct ExtentOptions {
   int steps = 17;       ///< sizes on the ladder, odd
   double ratio = 1.03;  ///< of neighbouring sizes
   double bump = 1.03;   ///< sd of the wanted response, steps
-  double area = 512;    ///< of a rung's image, its own pixels
+  double area = 1024;   ///< of a rung's image, its own pixels
   double regularisation = 1e-2;
 };
 

@@ -10,6 +10,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "mote/base/refusal.hpp"
+#include "mote/vision/container.hpp"
 #include "mote/vision/pattern.hpp"
 
 namespace mote::vision {
@@ -24,13 +25,15 @@ Refusal bad(const std::string& where, const std::string& what, const std::string
 
 std::string text_of(cv::Size size) { return std::to_string(size.width) + " x " + std::to_string(size.height); }
 
-/// Refuses a frame that differs in size from the first.
-class OneSize {
+/// Frames of 8 bits; refuses one that differs in size from the first where it must not.
+class Inspection {
  public:
+  explicit Inspection(Sizes sizes) : sizes_(sizes) {}
+
   cv::Mat checked(cv::Mat frame, const std::string& where) {
     if (frame.depth() != CV_8U) frame.convertTo(frame, CV_8U, frame.depth() == CV_16U ? 1.0 / 256 : 255.0);
     if (frame.channels() == 2) cv::extractChannel(frame, frame, 0);
-    if (size_.empty()) size_ = frame.size();
+    if (size_.empty() || sizes_ == Sizes::kAny) size_ = frame.size();
     if (frame.size() != size_)
       throw bad(where, "", "a frame of " + text_of(size_) + " pixels as the first", text_of(frame.size()),
                 "Cut the video where its size changes.");
@@ -38,6 +41,7 @@ class OneSize {
   }
 
  private:
+  Sizes sizes_;
   cv::Size size_;
 };
 
@@ -68,7 +72,7 @@ bool name_before(const std::string& a, const std::string& b) {
 
 class Pictures final : public Frames {
  public:
-  explicit Pictures(std::vector<std::string> files) : files_(std::move(files)) {}
+  Pictures(std::vector<std::string> files, Sizes sizes) : files_(std::move(files)), inspection_(sizes) {}
 
   std::optional<cv::Mat> next() override {
     if (at_ == files_.size()) return std::nullopt;
@@ -76,14 +80,15 @@ class Pictures final : public Frames {
     cv::Mat frame = cv::imread(file, cv::IMREAD_UNCHANGED);
     if (frame.empty())
       throw bad(file, "", "a picture", "a file that cannot be decoded", "Remove it or convert it to PNG or JPEG.");
-    return sizes_.checked(std::move(frame), file);
+    return inspection_.checked(std::move(frame), file);
   }
   std::size_t count() const override { return files_.size(); }
+  std::vector<std::string> files() const override { return files_; }
 
  private:
   std::vector<std::string> files_;
   std::size_t at_ = 0;
-  OneSize sizes_;
+  Inspection inspection_;
 };
 
 /// FFmpeg tells standard error what it dislikes; the refusal says it better.
@@ -94,7 +99,8 @@ const std::string& quietly(const std::string& path) {
 
 class Video final : public Frames {
  public:
-  explicit Video(std::string path) : path_(std::move(path)), capture_(quietly(path_), cv::CAP_FFMPEG) {
+  Video(std::string path, Sizes sizes)
+      : path_(std::move(path)), capture_(quietly(path_), cv::CAP_FFMPEG), inspection_(sizes) {
     if (!capture_.isOpened() || !capture_.read(first_) || first_.empty())
       throw bad(path_, "", "a video with at least one frame", "a file that cannot be decoded",
                 "Convert it, for example to MP4.");
@@ -105,10 +111,11 @@ class Video final : public Frames {
     if (!first_.empty()) {
       std::swap(frame, first_);
     } else if (!capture_.read(frame) || frame.empty()) {
+      refuse_if_cut_short();
       return std::nullopt;
     }
     ++at_;
-    return sizes_.checked(frame.clone(), path_ + ": frame " + std::to_string(at_));
+    return inspection_.checked(frame.clone(), path_ + ": frame " + std::to_string(at_));
   }
   std::size_t count() const override {
     const double frames = capture_.get(cv::CAP_PROP_FRAME_COUNT);
@@ -118,13 +125,34 @@ class Video final : public Frames {
     const double rate = capture_.get(cv::CAP_PROP_FPS);
     return rate > 0 && rate < 1000 ? rate : 25;
   }
+  std::vector<std::string> files() const override { return {path_}; }
+  std::string note() const override {
+    if (at_ >= count()) return "";
+    const std::string frames = std::to_string(count()) + (counts_ ? " frames" : " frames, which is a guess");
+    return path_ + " announces " + frames + ", and " + std::to_string(at_) + " could be decoded. The file is whole.";
+  }
 
  private:
+  /// A whole file may have fewer frames than it lists: empty ones, or some that its list of edits cuts out.
+  void refuse_if_cut_short() {
+    constexpr double kMayMiss = 0.1;  // of the frames
+    const Container container = container_of(path_);
+    counts_ = container.counts;
+    if (counts_ && at_ >= count()) return;
+    if (!container.cut && (!counts_ || static_cast<double>(at_) >= (1 - kMayMiss) * static_cast<double>(count())))
+      return;
+    throw bad(path_, "", container.cut ? "a whole video" : "the " + std::to_string(count()) + " frames that it lists",
+              (container.cut ? "a file cut short after " : "no more than ") + std::to_string(at_) +
+                  " frames that can be decoded",
+              "Fetch it again, or pass --frames " + std::to_string(at_) + ".");
+  }
+
   std::string path_;
   cv::VideoCapture capture_;
   cv::Mat first_;
   std::size_t at_ = 0;
-  OneSize sizes_;
+  bool counts_ = false;
+  Inspection inspection_;
 };
 
 bool is_picture(const fs::path& path) {
@@ -163,16 +191,16 @@ std::vector<std::string> by_pattern(const std::string& path, const Pattern& patt
 
 }  // namespace
 
-std::unique_ptr<Frames> open_frames(const std::string& path) {
+std::unique_ptr<Frames> open_frames(const std::string& path, Sizes sizes) {
   std::error_code unknown;
-  if (fs::is_directory(path, unknown)) return std::make_unique<Pictures>(in_folder(path));
+  if (fs::is_directory(path, unknown)) return std::make_unique<Pictures>(in_folder(path), sizes);
   if (!fs::exists(path, unknown)) {
-    if (const auto pattern = pattern_in(path)) return std::make_unique<Pictures>(by_pattern(path, *pattern));
+    if (const auto pattern = pattern_in(path)) return std::make_unique<Pictures>(by_pattern(path, *pattern), sizes);
     throw bad(path, "", "a video file, a folder of pictures or a pattern such as shot%04d.jpg", "nothing of that name",
               "Check the path.");
   }
-  if (is_picture(path)) return std::make_unique<Pictures>(std::vector<std::string>{path});
-  return std::make_unique<Video>(path);
+  if (is_picture(path)) return std::make_unique<Pictures>(std::vector<std::string>{path}, sizes);
+  return std::make_unique<Video>(path, sizes);
 }
 
 }  // namespace mote::vision

@@ -23,58 +23,84 @@ struct Compass {
   }
 };
 
-/// The direction, of 18, that is nearest to a gradient.
-int direction_of(float dx, float dy) {
-  static const Compass compass;
-  float best = 0;
-  int which = 0;
-  for (int k = 0; k < kOrientations; ++k) {
-    const float along = compass.x[static_cast<std::size_t>(k)] * dx + compass.y[static_cast<std::size_t>(k)] * dy;
-    if (along > best) best = along, which = k;
-    if (-along > best) best = -along, which = k + kOrientations;
+/// Gradients along a row of pixels: their lengths and the nearest of the 18 directions.
+class RowOfGradients {
+ public:
+  explicit RowOfGradients(int columns)
+      : dx_(size(columns)), dy_(dx_), best_(dx_), length_(dx_), direction_(dx_.size()) {}
+
+  /// From rows y - 1, y and y + 1 of an image; the first and the last column have none.
+  void see(const float* above, const float* here, const float* below) {
+    static const Compass compass;
+    const std::size_t n = dx_.size();
+    for (std::size_t x = 1; x + 1 < n; ++x) {
+      dx_[x] = here[x + 1] - here[x - 1];
+      dy_[x] = below[x] - above[x];
+      length_[x] = std::sqrt(dx_[x] * dx_[x] + dy_[x] * dy_[x]);
+      best_[x] = 0;
+      direction_[x] = 0;
+    }
+    for (int k = 0; k < kOrientations; ++k) {
+      const float cx = compass.x[static_cast<std::size_t>(k)];
+      const float cy = compass.y[static_cast<std::size_t>(k)];
+      for (std::size_t x = 1; x + 1 < n; ++x) {
+        const float along = cx * dx_[x] + cy * dy_[x];
+        direction_[x] = along > best_[x] ? k : -along > best_[x] ? k + kOrientations : direction_[x];
+        best_[x] = std::max(best_[x], std::abs(along));
+      }
+    }
   }
-  return which;
+  float length(int x) const { return length_[size(x)]; }
+  int direction(int x) const { return direction_[size(x)]; }
+
+ private:
+  static std::size_t size(int n) { return static_cast<std::size_t>(n); }
+
+  std::vector<float> dx_, dy_, best_, length_;
+  std::vector<int> direction_;
+};
+
+/// A pixel between two neighbouring cells along an axis.
+struct Between {
+  int cell;     ///< the first of them, from -1
+  float share;  ///< of the second
+};
+Between between(int pixel) {
+  const float at = (static_cast<float>(pixel) + 0.5F) / kCell - 0.5F;
+  const int cell = static_cast<int>(std::floor(at));
+  return {cell, at - static_cast<float>(cell)};
 }
 
-/// Votes of all pixels: rows x columns cells of 18 directions.
+/// Votes of all pixels: rows x columns cells of 18 directions, and a rim of cells that nobody reads.
 class Votes {
  public:
   explicit Votes(const cv::Mat& image)
       : rows_(image.rows / kCell),
         columns_(image.cols / kCell),
-        bins_(static_cast<std::size_t>(rows_ * columns_ * kDirections)) {
+        bins_(static_cast<std::size_t>((rows_ + 2) * (columns_ + 2) * kDirections)) {
+    RowOfGradients gradients(columns_ * kCell);
     for (int y = 1; y < rows_ * kCell - 1; ++y) {
-      const auto* above = image.ptr<float>(y - 1);
-      const auto* here = image.ptr<float>(y);
-      const auto* below = image.ptr<float>(y + 1);
-      for (int x = 1; x < columns_ * kCell - 1; ++x) vote(x, y, here[x + 1] - here[x - 1], below[x] - above[x]);
+      gradients.see(image.ptr<float>(y - 1), image.ptr<float>(y), image.ptr<float>(y + 1));
+      const Between row = between(y);
+      for (int x = 1; x < columns_ * kCell - 1; ++x)
+        vote(row, between(x), gradients.length(x), static_cast<std::size_t>(gradients.direction(x)));
     }
   }
   int rows() const { return rows_; }
   int columns() const { return columns_; }
-  const float* at(int row, int column) const {
-    return bins_.data() + static_cast<std::ptrdiff_t>((row * columns_ + column) * kDirections);
-  }
+  const float* at(int row, int column) const { return bins_.data() + place(row, column); }
 
  private:
-  void vote(int x, int y, float dx, float dy) {
-    const float length = std::sqrt(dx * dx + dy * dy);
-    if (length == 0) return;
-    const int direction = direction_of(dx, dy);
-    const float cx = (static_cast<float>(x) + 0.5F) / kCell - 0.5F;
-    const float cy = (static_cast<float>(y) + 0.5F) / kCell - 0.5F;
-    const int column = static_cast<int>(std::floor(cx));
-    const int row = static_cast<int>(std::floor(cy));
-    const float fx = cx - static_cast<float>(column);
-    const float fy = cy - static_cast<float>(row);
-    add(row, column, direction, length * (1 - fx) * (1 - fy));
-    add(row, column + 1, direction, length * fx * (1 - fy));
-    add(row + 1, column, direction, length * (1 - fx) * fy);
-    add(row + 1, column + 1, direction, length * fx * fy);
+  std::ptrdiff_t place(int row, int column) const {
+    return static_cast<std::ptrdiff_t>(((row + 1) * (columns_ + 2) + column + 1) * kDirections);
   }
-  void add(int row, int column, int direction, float weight) {
-    if (row < 0 || column < 0 || row >= rows_ || column >= columns_) return;
-    bins_[static_cast<std::size_t>((row * columns_ + column) * kDirections + direction)] += weight;
+  void vote(Between row, Between column, float length, std::size_t direction) {
+    float* upper = bins_.data() + place(row.cell, column.cell) + direction;
+    float* lower = upper + place(1, 0) - place(0, 0);
+    upper[0] += length * (1 - column.share) * (1 - row.share);
+    upper[kDirections] += length * column.share * (1 - row.share);
+    lower[0] += length * (1 - column.share) * row.share;
+    lower[kDirections] += length * column.share * row.share;
   }
 
   int rows_, columns_;

@@ -31,10 +31,10 @@ struct Motion {
 /// How the parts of the likelihood add up, in nat.
 struct Likelihood {
   bool by_distance = false;  ///< PPF: a Gaussian of the distance to the stable template instead of the mixture
-  double appearance = 20;    ///< weight of the mean log density of a pixel: tempers 1024 correlated pixels
+  double appearance = 10;    ///< weight of the mean log density of a pixel: tempers 1024 correlated pixels
   double place = 40;         ///< weight of the place filter's response
-  double extent = 20;        ///< weight of the extent filter's response
-  double aspect_sd = 0.05;   ///< of the shape around the first box's
+  double extent = 80;        ///< weight of the extent filter's response
+  double aspect_sd = 0.02;   ///< of the shape around the first box's
   double angle_sd = 0.3;     ///< rad, around upright; of the skew, too
 };
 

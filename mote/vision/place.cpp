@@ -92,6 +92,11 @@ void PlaceFilter::learn(const View& view, const Box& box, double rate) {
     colour_.learn(window_around(view.colour, box).image, size_.width / per_w_, size_.height / per_h_, 2 * rate);
 }
 
+double PlaceFilter::likeness(const View& view, const Box& box) const {
+  if (!view.coloured) return 1;
+  return colour_.likeness(window_around(view.colour, box).image, size_.width / per_w_, size_.height / per_h_);
+}
+
 ResponseMap PlaceFilter::respond(const View& view, const Box& box) const {
   ResponseMap map;
   map.values = filter_.respond(features(view, box), kRefine);

@@ -53,6 +53,9 @@ class PlaceFilter {
   /// Scores of all places in the window around the box; 1 is a perfect match. `reach` widens the window.
   ResponseMap respond(const View& view, const Box& box) const;
 
+  /// How alike the colours in the box and the target's are, in [0, 1]; 1 in frames without colours.
+  double likeness(const View& view, const Box& box) const;
+
   /// Sides of the window in sides of the target.
   double reach_x() const { return per_w_; }
   double reach_y() const { return per_h_; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "mote/base/scan.hpp"
 #include "mote/software/reference.hpp"
@@ -65,12 +66,18 @@ Tracker::Tracker(const TrackerOptions& options, const cv::Mat& frame, const Box&
   restart({pose_}, options.plan.particles);
 }
 
-void Tracker::look(const View& view, const Pose& around) {
+/// The pixels that particles may see.
+void Tracker::cut(const View& view, const Pose& around) {
   constexpr int kReach = 4;  // sides of the target that particles may see
   constexpr int kPixelsSeen = kReach * static_cast<int>(kSide);
   const Box box = box_of(around, first_);
   sight_->window =
       view.grey.cut(box.centre_x(), box.centre_y(), kReach * box.w, kReach * box.h, {kPixelsSeen, kPixelsSeen});
+}
+
+void Tracker::look(const View& view, const Pose& around) {
+  const Box box = box_of(around, first_);
+  cut(view, around);
   sight_->place = place_.respond(view, box);
   sight_->extent = extent_.respond(view, box);
   sight_->log_size = 0.5 * (around[kLogW] + around[kLogH]);
@@ -99,15 +106,21 @@ void Tracker::restart(std::vector<Pose> start, std::size_t particles) {
   particles_ = particles;
 }
 
-/// The best response of the place filter: around where the target was lost, at the candidates, and in windows all over
-/// the frame, in turns where there are many.
-Peak Tracker::best_place(const View& view, std::span<const Box> candidates) {
+/// From where the target was lost, in geometric means of its sides.
+double Tracker::distance_to(double x, double y) const {
+  return std::hypot(x - pose_[kX], y - pose_[kY]) / std::sqrt(box_of(pose_, first_).area());
+}
+
+/// The highest responses of the place filter: around where the target was lost, at the candidates, and in windows all
+/// over the frame, in turns where there are many; only as far as the target may be by now.
+std::vector<Peak> Tracker::peaks(const View& view, std::span<const Box> candidates) {
   constexpr int kMostWindows = 48;  // a frame: some 50 ms
+  constexpr double kWindow = 1.5;   // sides from a window's centre to what it shows
   const Box box = box_of(pose_, first_);
-  Peak best{0, 0, -kInfinity};
+  std::vector<Peak> all;
   const auto at = [&](double x, double y) {
-    const Peak peak = peak_of(place_.respond(view, {x - box.w / 2, y - box.h / 2, box.w, box.h}));
-    if (peak.value > best.value) best = peak;
+    if (std::isinf(confidence_->needed(distance_to(x, y) - kWindow))) return;
+    all.push_back(peak_of(place_.respond(view, {x - box.w / 2, y - box.h / 2, box.w, box.h})));
   };
   at(pose_[kX], pose_[kY]);
   for (const Box& candidate : candidates) at(candidate.centre_x(), candidate.centre_y());
@@ -122,19 +135,51 @@ Peak Tracker::best_place(const View& view, std::span<const Box> candidates) {
     const int row = window / nx;
     at((window % nx + 0.5) * sight_->width / nx, (row + 0.5) * sight_->height / ny);
   }
-  return best;
+  return all;
+}
+
+/// A second look at a peak, from its own place: whether it is the target.
+std::optional<Tracker::Find> Tracker::examined(const View& view, const Peak& peak) {
+  constexpr double kFaded = 0.7;  // of the response, as far as a peak may lie from its window's centre
+  constexpr double kSameColours = 0.7;
+  if (peak.value < kFaded * confidence_->needed(distance_to(peak.x, peak.y))) return std::nullopt;
+  Pose pose = pose_;
+  pose[kX] = peak.x;
+  pose[kY] = peak.y;
+  const Peak centred = peak_of(place_.respond(view, box_of(pose, first_)));
+  pose[kX] = centred.x;
+  pose[kY] = centred.y;
+  cut(view, pose);
+  const double density = appearance_->mean_log_density(patch_at(pose));
+  const double distance = distance_to(centred.x, centred.y);
+  if (!confidence_->is_found(centred.value, density, distance)) return std::nullopt;
+  const bool near = confidence_->is_near(distance);
+  if (!near && place_.likeness(view, box_of(pose, first_)) < kSameColours) return std::nullopt;
+  return Find{pose, confidence_->score(centred.value, density), near};
+}
+
+/// The best find, near ones first. Far away there may be others who look like the target: of two nearly as good none.
+std::optional<Tracker::Find> Tracker::found(const View& view, std::span<const Box> candidates) {
+  constexpr double kRival = 0.85;
+  const double apart = 0.5 * std::sqrt(box_of(pose_, first_).area());
+  std::vector<Find> finds;
+  for (const Peak& peak : peaks(view, candidates))
+    if (const auto find = examined(view, peak)) finds.push_back(*find);
+  const auto worse = [](const Find& a, const Find& b) { return std::tie(a.near, a.score) < std::tie(b.near, b.score); };
+  const auto best = std::max_element(finds.begin(), finds.end(), worse);
+  if (best == finds.end() || best->near) return best == finds.end() ? std::nullopt : std::optional(*best);
+  const bool rivalled = std::any_of(finds.begin(), finds.end(), [&](const Find& other) {
+    return other.score > kRival * best->score &&
+           std::hypot(other.pose[kX] - best->pose[kX], other.pose[kY] - best->pose[kY]) > apart;
+  });
+  return rivalled ? std::nullopt : std::optional(*best);
 }
 
 bool Tracker::search(const View& view, std::span<const Box> candidates) {
-  const Peak best = best_place(view, candidates);
-  Pose pose = pose_;
-  pose[kX] = best.x;
-  pose[kY] = best.y;
-  look(view, pose);
-  const double distance = std::hypot(best.x - pose_[kX], best.y - pose_[kY]) / std::sqrt(box_of(pose_, first_).area());
-  if (!confidence_->is_found(best.value, appearance_->lost_share(patch_at(pose)), distance)) return false;
-  pose_ = pose;
-  restart({pose}, after_doubt());
+  const auto find = found(view, candidates);
+  if (!find) return false;
+  pose_ = find->pose;
+  restart({pose_}, after_doubt());
   return true;
 }
 
@@ -172,11 +217,11 @@ void Tracker::follow(const View& view, Track& track) {
   }
   const Pose estimated = estimate();
   track.cloud = centres_of(filter_->weighted());
-  const double lost_share =
-      track.report.collapsed || !is_sane(estimated) ? 1 : appearance_->lost_share(patch_at(estimated));
+  const double density =
+      track.report.collapsed || !is_sane(estimated) ? -kInfinity : appearance_->mean_log_density(patch_at(estimated));
   const double response = sight_->place.at(estimated[kX], estimated[kY]);
-  track.score = confidence_->score(response, lost_share);
-  const Sighting sighting = confidence_->note(response, lost_share);
+  track.score = confidence_->score(response, density);
+  const Sighting sighting = confidence_->note(response, density);
   if (sighting == Sighting::kHidden) return restart({pose_}, after_doubt());  // the pose stays
   track.pose = estimated;
   if (sighting == Sighting::kSure) learn(view, estimated, confidence_->weight(track.score));

@@ -75,10 +75,20 @@ class Tracker {
   const StageTimes& times() const { return *model_.times; }
 
  private:
+  void cut(const View& view, const Pose& around);
   void look(const View& view, const Pose& around);
   void restart(std::vector<Pose> start, std::size_t particles);
   bool search(const View& view, std::span<const Box> candidates);
-  Peak best_place(const View& view, std::span<const Box> candidates);
+  /// A place that shows the lost target again.
+  struct Find {
+    Pose pose;
+    double score;
+    bool near;  // where the target may have got to
+  };
+  double distance_to(double x, double y) const;
+  std::vector<Peak> peaks(const View& view, std::span<const Box> candidates);
+  std::optional<Find> examined(const View& view, const Peak& peak);
+  std::optional<Find> found(const View& view, std::span<const Box> candidates);
   void follow(const View& view, Track& track);
   void learn(const View& view, const Pose& pose, double weight);
   bool adapt(Sighting sighting);

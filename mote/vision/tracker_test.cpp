@@ -103,6 +103,34 @@ TEST(Tracker, ATargetThatLeavesIsLostAndNothingBreaks) {
   EXPECT_TRUE(is_sane(track.pose));
 }
 
+/// A frame with a target at each of the places.
+cv::Mat with_targets(const Stage& stage, const std::vector<cv::Point>& centres) {
+  cv::Mat frame = stage.scene.clone();
+  for (const cv::Point& c : centres) {
+    const cv::Rect place(c.x - 24, c.y - 20, 48, 40);
+    stage.frame(pose_at(c.x, c.y))(place).copyTo(frame(place));
+  }
+  return frame;
+}
+
+TEST(Tracker, FarAwayOneThatLooksTheSameIsTakenOfTwoNone) {
+  const Stage stage;
+  const cv::Point start(45, 45);
+  const cv::Point far(275, 195);
+  const cv::Point twin(275, 60);
+  for (const bool two : {false, true}) {
+    Tracker tracker(options_with(FilterKind::kSisr), with_targets(stage, {start}), {21, 25, 48, 40});
+    for (int k = 0; k < 10; ++k) tracker.step(with_targets(stage, {start}));
+    for (int k = 0; k < 32; ++k) tracker.step(with_targets(stage, {}));
+    EXPECT_TRUE(tracker.lost());
+    Track track;
+    for (int k = 0; k < 5; ++k)
+      track = tracker.step(with_targets(stage, two ? std::vector{far, twin} : std::vector{far}));
+    EXPECT_EQ(track.lost, two);
+    EXPECT_EQ(overlap(track.box, Box{251, 175, 48, 40}) > 0.7, !two);
+  }
+}
+
 TEST(Tracker, OneSeedIsOneTrackOnAnyNumberOfThreads) {
   const Stage stage;
   std::vector<Box> last;

@@ -10,6 +10,22 @@
 #include "mote/vision/detector.hpp"
 
 namespace mote::vision {
+namespace {
+
+constexpr int kPatch = 64;  // px
+
+/// A scene in grey, enlarged where it is small.
+cv::Mat as_scanned(const cv::Mat& scene) {
+  constexpr double kMostEnlarged = 8;
+  cv::Mat grey = scene;
+  if (scene.channels() == 3) cv::cvtColor(scene, grey, cv::COLOR_BGR2GRAY);
+  if (scene.channels() == 4) cv::cvtColor(scene, grey, cv::COLOR_BGRA2GRAY);
+  const double enlarge = std::clamp(2.0 * kPatch / std::min(grey.rows, grey.cols), 1.0, kMostEnlarged);
+  if (enlarge > 1) cv::resize(grey, grey, {}, enlarge, enlarge, cv::INTER_LINEAR);
+  return grey;
+}
+
+}  // namespace
 
 void Training::add(const cv::Mat& patch, bool target) {
   std::vector<float> features;
@@ -20,7 +36,6 @@ void Training::add(const cv::Mat& patch, bool target) {
 }
 
 void Training::add_mosaic(const std::string& path, bool target) {
-  constexpr int kPatch = 64;
   const cv::Mat mosaic = cv::imread(path, cv::IMREAD_GRAYSCALE);
   if (mosaic.empty() || mosaic.rows % kPatch != 0 || mosaic.cols % kPatch != 0)
     throw Refusal(
@@ -40,16 +55,15 @@ void Training::add_mosaic(const std::string& path, bool target) {
 
 std::size_t Training::add_hard_negatives(const cv::Mat& scene, const std::vector<float>& weights) {
   constexpr std::size_t kMost = 20;
-  cv::Mat grey = scene;
-  if (scene.channels() == 3) cv::cvtColor(scene, grey, cv::COLOR_BGR2GRAY);
-  if (scene.channels() == 4) cv::cvtColor(scene, grey, cv::COLOR_BGRA2GRAY);
+  const cv::Mat seen = as_scanned(scene);
+  if (std::min(seen.rows, seen.cols) < kPatch) return 0;  // not even one patch
   std::size_t added = 0;
-  for (const Detection& found : Detector(weights).detect(grey)) {
+  for (const Detection& found : Detector(weights).detect(seen)) {
     const cv::Rect place =
-        cv::Rect2d(found.box.x, found.box.y, found.box.w, found.box.h) & cv::Rect2d(0, 0, grey.cols, grey.rows);
-    if (added == kMost || place.width < 8 || place.height < 8) continue;
+        cv::Rect2d(found.box.x, found.box.y, found.box.w, found.box.h) & cv::Rect2d(0, 0, seen.cols, seen.rows);
+    if (added == kMost || place.empty()) continue;
     cv::Mat patch;
-    cv::resize(grey(place), patch, {64, 64}, 0, 0, cv::INTER_AREA);
+    cv::resize(seen(place), patch, {kPatch, kPatch}, 0, 0, cv::INTER_AREA);
     add(patch, false);
     ++added;
   }

@@ -17,7 +17,9 @@ class Training {
   ///
   /// error   Refusal (kBadData) when it is no picture or its sides are no multiples of 64
   void add_mosaic(const std::string& path, bool target);
-  /// Adds what a detector takes for targets in a scene without any, at most 20; returns how many.
+  /// Adds what a detector takes for targets in a scene without any, at most 20; returns how many. The scene may have
+  /// any size and 1, 3 or 4 channels of 8 bits: it is scanned at every scale down from its own, and a small one down
+  /// from one where its shorter side is two patches long, enlarged 8 times at most.
   std::size_t add_hard_negatives(const cv::Mat& scene, const std::vector<float>& weights);
   /// Weights of the features, then the offset: what Detector takes.
   ///

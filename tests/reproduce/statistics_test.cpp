@@ -47,6 +47,25 @@ TEST(Statistics, SpreadsAndRoots) {
   EXPECT_DOUBLE_EQ(statistic(asking(Kind::kMeanSpread), two_times), 1);
 }
 
+TEST(Statistics, TheLeastNumberOfParticlesThatIsEnoughFromThereOn) {
+  Comparison c = asking(Kind::kParticlesEnough);
+  c.slack = 0.1;
+  Samples samples;
+  samples.values = {{{9, 2.1, 5, 1.2, 2}, {9, 2.3, 5, 3.0, 2}}};  // means 9, 2.2, 5, 2.1, 2: 200 particles are chance
+  samples.particles = {{100, 200, 400, 800, 1600}};
+  EXPECT_DOUBLE_EQ(statistic(c, samples), 800);
+  c.slack = 0.04;
+  EXPECT_DOUBLE_EQ(statistic(c, samples), 1600);
+  c.slack = 4;
+  EXPECT_DOUBLE_EQ(statistic(c, samples), 100);
+  samples.values.push_back({{3, 1}, {3, 1}});
+  samples.particles.push_back({40, 50});
+  EXPECT_DOUBLE_EQ(statistic(c, samples), 100.0 / 40);
+  EXPECT_FALSE(standard_error(c, samples).has_value());
+  samples.values[0][0][4] = kNaN;
+  EXPECT_TRUE(std::isnan(statistic(c, samples)));
+}
+
 TEST(Statistics, MeanDifferencesInTheirUnits) {
   Samples samples;
   samples.values = {{{0, 3}, {2, 5}}, {{3, 8}, {5, 10}}};  // means 1, 4 against 4, 9; every variance 2

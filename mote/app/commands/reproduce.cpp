@@ -6,6 +6,7 @@
 
 #include "mote/app/commands/command.hpp"
 #include "mote/app/files/output.hpp"
+#include "mote/app/files/text.hpp"
 #include "mote/app/reproduce/figures.hpp"
 #include "mote/app/reproduce/publication.hpp"
 #include "mote/app/terminal/progress.hpp"
@@ -67,6 +68,17 @@ std::vector<Laboratory> laboratories_for(const std::vector<std::string>& papers,
   return all;
 }
 
+/// Takes out the items whose clip is not there; returns what is to be said of them.
+std::vector<std::string> take_out_missing(std::vector<Laboratory>& laboratories) {
+  std::vector<std::string> said;
+  for (const Laboratory& laboratory : laboratories)
+    if (const std::string missing = laboratory.missing(); !missing.empty())
+      said.push_back(fmt::format("skipped {} {}: there is no {}. Set MOTE_DATA to the folder with clips/.",
+                                 laboratory.item().paper, laboratory.item().name, missing));
+  std::erase_if(laboratories, [](const Laboratory& laboratory) { return !laboratory.missing().empty(); });
+  return said;
+}
+
 std::vector<Regenerated> regenerate_all(std::vector<Laboratory>& laboratories) {
   std::size_t work = 0;
   std::size_t done = 0;
@@ -103,8 +115,12 @@ ExitCode run_reproduce(const Arguments& arguments) {
     if (std::none_of(laboratories.begin(), laboratories.end(),
                      [&](const Laboratory& l) { return l.item().paper == paper; }))
       fmt::print("{}: no items yet\n", paper);
+  const std::vector<std::string> skipped = take_out_missing(laboratories);
+  for (const std::string& sentence : skipped) fmt::print("{}\n", printable(sentence));
   const auto all = regenerate_all(laboratories);
-  write_all(out, all, page_of(choices[choice], all, arguments.command_line()));
+  report::Page page = page_of(choices[choice], all, arguments.command_line());
+  page.notes.insert(page.notes.end(), skipped.begin(), skipped.end());
+  write_all(out, all, page);
   fmt::print("{}{}/index.html, {}/comparison.json\n", comparison_text(all), out, out);
   return ExitCode::kDone;
 }

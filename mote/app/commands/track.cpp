@@ -24,14 +24,20 @@ std::vector<OptionSpec> filter_options() {
 
 Command track_command(std::function<ExitCode(const Arguments&)> track) {
   std::vector<OptionSpec> options{
-      {"--init", "X,Y,W,H", "", "box of the target in the first frame, px, 0-based corner; or pass --detect", "Target"},
+      {"--init", "X,Y,W,H", "", "box of the target in the first frame, px, 0-based corner; or pass --detect, or --show",
+       "Target"},
       {"--detect", "", "", "find targets by a detector, at the start and when one is lost for long", "Target"},
       {"--detector", "NAME", "people", "people, or a file made by mote train", "Target"},
+      {"--frames", "K", "", "track the first K frames only [all]", "Target"},
       {"--out", "FILE", "", "boxes as CSV, a line a frame; - is standard output [none]", "Output"},
       {"--summary", "FILE", "", "figures of the run as JSON [none]", "Output"},
       {"--video", "FILE", "", "annotated video (.mp4, .avi), or pictures (out%04d.png) [none]", "Output"},
+      {"--sheet", "FILE", "", "some annotated frames side by side in one picture (.png, .jpg) [none]", "Output"},
+      {"--sheet-frames", "LIST", "1,4,8,12,16,20", "the frames of the sheet", "Output"},
       {"--report", "FILE", "", "report with plots, one HTML file [none]", "Output"},
-      {"--show", "", "", "show the frames while they are tracked (needs a display)", "Output"},
+      {"--show", "", "",
+       "show the frames while they are tracked (needs a display); without --init and --detect, first draw the box",
+       "Output"},
       {"--truth", "FILE", "", "true boxes, to score against [none]", "Truth"},
       {"--truth-format", "FORMAT", "auto",
        "boxes (CSV as --out), otb (x,y,w,h a line, 1-based), tld (x1,y1,x2,y2 a line, 0-based), or auto: by the "
@@ -61,7 +67,8 @@ Command train_command(std::function<ExitCode(const Arguments&)> train) {
           {},
           {{"--positives", "FILE", "", "picture of 64 x 64 patches that show a target, in rows", "Data", true},
            {"--negatives", "FILE", "", "picture of 64 x 64 patches that show none, in rows", "Data", true},
-           {"--scenes", "DIR", "", "pictures without targets, to look for hard negatives in; may be repeated [none]",
+           {"--scenes", "DIR", "",
+            "pictures of any size, or a video, without targets, to look for hard negatives in; may be repeated [none]",
             "Data", true},
            {"--out", "FILE", "", "the detector, for mote track --detector; must be given", "Output"}},
           std::move(train),

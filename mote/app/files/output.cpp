@@ -146,22 +146,20 @@ void Output::fail(int error) const {
 }
 
 void OutputSet::protect(const std::string& path) {
-  if (!path.empty()) inputs_.push_back(followed(path));
+  if (!path.empty()) inputs_.insert(followed(path));
 }
 
 void OutputSet::reserve(const std::string& path) {
   if (path.empty()) return;
   const std::string real = stream_named(path) == 1 ? "-" : followed(path);
-  const auto among = [&](const std::vector<std::string>& all) {
-    return !no_regular_file(real) && std::find(all.begin(), all.end(), real) != all.end();
-  };
+  const auto among = [&](const std::set<std::string>& all) { return all.contains(real) && !no_regular_file(real); };
   if (among(inputs_))
     throw Refusal(ExitCode::kWrongUse,
                   {path, "", "an output in a file of its own", "a file that this command reads", "Name another file."});
   if (among(paths_))
     throw Refusal(ExitCode::kWrongUse, {path, "", "every output in a file of its own", "the same file for two outputs",
                                         "Name another file."});
-  paths_.push_back(real);
+  paths_.insert(real);
 }
 
 Output* OutputSet::open(const std::string& path) {

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -61,7 +62,7 @@ class OutputSet {
   bool on_standard_output() const;
 
  private:
-  std::vector<std::string> inputs_, paths_;
+  std::set<std::string> inputs_, paths_;
   std::vector<std::unique_ptr<Output>> outputs_;
 };
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "mote/app/compare/statistics.hpp"
 #include "mote/app/files/output.hpp"
 
 namespace mote::reproduce {
@@ -89,6 +91,33 @@ void draw_tradeoff(Chart& chart, const Figure& figure, const Outcome& outcome) {
       chart.series.push_back({.name = t.run, .mark = Series::Mark::kPoints, .x = {t.ns}, .y = {t.error}});
 }
 
+/// Centre error over the number of particles, a mean over repeats, a line for each series.
+void draw_sweep(Chart& chart, const Figure& figure, const Outcome& outcome) {
+  chart.x_label = "particles";
+  chart.y_label = "centre error (px)";
+  chart.log_x = chart.log_y = true;
+  std::map<std::string, std::map<int, std::vector<double>>> sweeps;
+  for (const TrackRow& row : outcome.tracks)
+    if (!row.series.empty() && draws(figure, row.series))
+      sweeps[row.series][row.particles].push_back(row.figures.find("centre_error_px")->second);
+  for (const auto& [name, sweep] : sweeps) {
+    Series& series = chart.series.emplace_back(Series{.name = name, .mark = Series::Mark::kMarkedLine});
+    for (const auto& [particles, errors] : sweep) add(series, particles, compare::mean(errors));
+  }
+}
+
+std::string tracks_csv(const Outcome& outcome) {
+  std::string csv = "run,particles,repeat";
+  for (const std::string_view key : kTrackKeys) csv += "," + std::string(key);
+  csv += '\n';
+  for (const TrackRow& row : outcome.tracks) {
+    csv += slug(row.run) + "," + std::to_string(row.particles) + "," + std::to_string(row.repeat);
+    for (const std::string_view key : kTrackKeys) csv += "," + exact(row.figures.find(key)->second);
+    csv += '\n';
+  }
+  return csv;
+}
+
 std::string tradeoff_csv(const Outcome& outcome) {
   std::string csv = "run,ess,error,ns_per_draw\n";
   for (const Tradeoff& t : outcome.tradeoffs)
@@ -102,6 +131,8 @@ Chart chart_of(const Item& item, const Figure& figure, const Outcome& outcome) {
   Chart chart{.title = item.paper + " " + item.name + ": " + figure.title};
   if (item.weights) {
     draw_tradeoff(chart, figure, outcome);
+  } else if (item.clip) {
+    draw_sweep(chart, figure, outcome);
   } else if (figure.state.empty()) {
     draw_track(chart, figure, outcome);
   } else {
@@ -112,6 +143,7 @@ Chart chart_of(const Item& item, const Figure& figure, const Outcome& outcome) {
 
 std::string figure_csv(const Outcome& outcome) {
   if (!outcome.tradeoffs.empty()) return tradeoff_csv(outcome);
+  if (!outcome.tracks.empty()) return tracks_csv(outcome);
   std::string csv = "t";
   for (const Quantity& state : outcome.states) csv += ",truth_" + state.name;
   for (const auto& [name, record] : outcome.records)

@@ -18,16 +18,15 @@ constexpr std::int64_t kMostSteps = 1'000'000;
 constexpr std::int64_t kMostRepeats = 10'000;
 
 /// Kinds in the order of the enumeration.
-constexpr std::array<std::string_view, 10> kKinds{"mean-difference", "mean-spread",     "rmse",    "normalised-error",
+constexpr std::array<std::string_view, 12> kKinds{"mean-difference", "mean-spread",     "rmse",    "normalised-error",
                                                   "final-bias",      "evidence-spread", "summary", "resample-error",
-                                                  "resample-time",   "resample-cost"};
+                                                  "resample-time",   "resample-cost",   "track",   "particles-enough"};
 constexpr std::array<std::string_view, 3> kUnits{"standard-error", "posterior-sd", "absolute"};
 constexpr std::array<std::string_view, 2> kMiddles{"mean", "median"};
 
-bool resamples(Kind kind) { return kind >= Kind::kResampleError; }
-bool reads_state(Kind kind) { return kind != Kind::kEvidenceSpread && kind != Kind::kSummary && !resamples(kind); }
+bool reads_state(Kind kind) { return kind < Kind::kEvidenceSpread; }
 bool averages(Kind kind) {
-  return kind == Kind::kRmse || kind == Kind::kFinalBias || kind == Kind::kSummary || resamples(kind);
+  return kind == Kind::kRmse || kind == Kind::kFinalBias || (kind >= Kind::kSummary && kind <= Kind::kTrack);
 }
 
 Source simulated_from(Fields fields) {
@@ -63,6 +62,23 @@ WeightSource weights_from(Fields fields) {
   return source;
 }
 
+Clip clip_from(Fields fields) {
+  Clip clip{fields.where(), fields.text("video"), fields.text("truth"), fields.text("init")};
+  clip.frames = static_cast<int>(fields.integer("frames", 2, kMostSteps));
+  clip.options = fields.texts("options");
+  fields.finish();
+  return clip;
+}
+
+Clip drawn_from(Fields fields) {
+  Clip clip{fields.where(), "", ""};
+  clip.frames = static_cast<int>(fields.integer("frames", 2, 10'000));
+  clip.seed = static_cast<std::uint64_t>(fields.integer("seed", 0, INT64_MAX / 2, 1));
+  clip.options = fields.texts("options");
+  fields.finish();
+  return clip;
+}
+
 /// The level of a figure or comparison: one of the item's.
 double level_from(Fields& fields, const WeightSource& weights) {
   const auto level = fields.number("ess");
@@ -71,31 +87,57 @@ double level_from(Fields& fields, const WeightSource& weights) {
   return *level;
 }
 
-Run run_from(Fields fields, const std::vector<Run>& others) {
-  Run run{fields.where(), fields.text("name"), fields.texts("options"), fields.texts("set")};
-  if (std::any_of(others.begin(), others.end(), [&](const Run& r) { return slug(r.name) == slug(run.name); }))
-    fields.refuse("name", "a name that no other run has");
-  fields.finish();
-  return run;
+/// Positive whole numbers, each above the one before; none without the key.
+std::vector<int> rising(Fields& fields, std::string_view key) {
+  std::vector<int> list;
+  for (const double number : fields.numbers(key)) {
+    if (number < 1 || number > 1e6 || number != static_cast<int>(number) || (!list.empty() && number <= list.back()))
+      fields.refuse(key, "a list of whole numbers from 1 on, rising");
+    list.push_back(static_cast<int>(number));
+  }
+  return list;
 }
 
-void check_names(const Fields& fields, const std::vector<std::string>& names, const std::vector<Run>& runs) {
+/// The run of a table, or a run for each number of its list of particles.
+std::vector<Run> runs_from(Fields fields, const Item& item) {
+  Run run{fields.where(), fields.text("name"), fields.texts("options"), {}};
+  if (!item.clip) run.settings = fields.texts("set");
+  std::vector<Run> runs;
+  for (const int particles : item.clip ? rising(fields, "particles") : std::vector<int>{}) {
+    Run& one = runs.emplace_back(run);
+    one.name = fmt::format("{} {}", run.name, particles);
+    one.series = run.name;
+    one.particles = particles;
+  }
+  if (runs.empty()) runs.push_back(run);
+  for (const Run& one : runs)
+    if (std::any_of(item.runs.begin(), item.runs.end(), [&](const Run& r) { return slug(r.name) == slug(one.name); }))
+      fields.refuse("name", "a name that no other run has");
+  fields.finish();
+  return runs;
+}
+
+void check_names(const Fields& fields, const std::vector<std::string>& names, const std::vector<Run>& runs,
+                 std::string Run::*known = &Run::name) {
   for (const std::string& name : names)
-    if (std::none_of(runs.begin(), runs.end(), [&](const Run& r) { return r.name == name; }))
-      fields.refuse("runs", "names of the item's runs");
+    if (std::none_of(runs.begin(), runs.end(), [&](const Run& r) { return r.*known == name; }))
+      fields.refuse("runs", known == &Run::name ? "names of the item's runs" : "names of runs with lists of particles");
 }
 
 Figure figure_from(Fields fields, const Item& item) {
   Figure figure{fields.where(), fields.text("title")};
   if (item.weights) {
     figure.ess = level_from(fields, *item.weights);
+  } else if (item.clip) {
+    figure.frames = rising(fields, "frames");
   } else {
     figure.state = fields.text_or("state", "");
     figure.error = fields.yes("error");
   }
   if (figure.error && figure.state.empty()) fields.refuse("error", "a state whose error is drawn");
   figure.runs = fields.texts("runs");
-  check_names(fields, figure.runs, item.runs);
+  check_names(fields, figure.runs, item.runs, item.clip && figure.frames.empty() ? &Run::series : &Run::name);
+  if (!figure.frames.empty() && figure.runs.size() != 1) fields.refuse("runs", "the one run whose frames are shown");
   fields.finish();
   return figure;
 }
@@ -105,7 +147,7 @@ void read_runs(Fields& fields, const std::vector<Run>& runs, Comparison& c) {
   const std::size_t least = c.kind == Kind::kMeanDifference ? 2 : 1;
   if (c.runs.size() < least || c.runs.size() > 2)
     fields.refuse("runs", least == 2 ? "a list of two runs" : "a list of one run, or of two");
-  check_names(fields, c.runs, runs);
+  check_names(fields, c.runs, runs, c.kind == Kind::kParticlesEnough ? &Run::series : &Run::name);
 }
 
 void read_condition(Fields& fields, Comparison& c) {
@@ -124,21 +166,27 @@ void read_condition(Fields& fields, Comparison& c) {
 }
 
 /// The kind, of those that the item's source can answer.
-Kind kind_from(Fields& fields, bool weights) {
-  const auto known = std::span(kKinds).subspan(weights ? 7 : 0, weights ? 3 : 7);
+Kind kind_from(Fields& fields, const Item& item) {
+  const std::size_t first = static_cast<std::size_t>(item.weights ? Kind::kResampleError
+                                                     : item.clip  ? Kind::kTrack
+                                                                  : Kind{});
+  const std::size_t count = item.weights ? 3 : item.clip ? 2 : 7;
+  const auto known = std::span(kKinds).subspan(first, count);
   if (!fields.has("kind")) fields.refuse("kind", fmt::format("one of {}", fmt::join(known, ", ")));
-  return static_cast<Kind>(fields.choice("kind", known) + (weights ? 7 : 0));
+  return static_cast<Kind>(fields.choice("kind", known) + first);
 }
 
 Comparison comparison_from(Fields fields, const Item& item) {
   Comparison c;
   c.where = fields.where();
   c.name = fields.text("name");
-  c.kind = kind_from(fields, item.weights.has_value());
+  c.kind = kind_from(fields, item);
   read_runs(fields, item.runs, c);
   if (item.weights) c.ess = level_from(fields, *item.weights);
   if (reads_state(c.kind)) c.state = fields.text("state");
   if (c.kind == Kind::kSummary) c.key = kSummaryKeys[fields.choice("key", kSummaryKeys)];
+  if (c.kind == Kind::kTrack) c.key = kTrackKeys[fields.choice("key", kTrackKeys)];
+  if (c.kind == Kind::kParticlesEnough) c.slack = fields.number("slack").value_or(0.1);
   if (c.kind == Kind::kMeanDifference) c.unit = static_cast<Comparison::Unit>(fields.choice("unit", kUnits));
   if (averages(c.kind)) c.median = fields.choice("over", kMiddles) == 1;
   c.repeats = static_cast<int>(fields.integer("repeats", 2, kMostRepeats, 20));
@@ -161,12 +209,16 @@ Item read_item(const std::string& path, const std::string& paper) {
   item.source = fields.text("source");
   item.printed = fields.text("printed");
   item.note = fields.text_or("note", "");
-  if (fields.has("simulate") + fields.has("data") + fields.has("weights") != 1)
-    fields.refuse("simulate", "one of the tables [simulate], [data] and [weights]");
+  int sources = 0;
+  for (const char* table : {"simulate", "data", "weights", "clip", "drawn"}) sources += fields.has(table);
+  if (sources != 1) fields.refuse("simulate", "one of the tables [simulate], [data], [weights], [clip] and [drawn]");
   if (fields.has("weights")) item.weights = weights_from(fields.table("weights"));
+  if (fields.has("clip")) item.clip = clip_from(fields.table("clip"));
+  if (fields.has("drawn")) item.clip = drawn_from(fields.table("drawn"));
   if (fields.has("data")) item.recording = data_from(fields.table("data"), path);
   if (fields.has("simulate")) item.recording = simulated_from(fields.table("simulate"));
-  for (const Fields& table : fields.tables("run")) item.runs.push_back(run_from(table, item.runs));
+  for (const Fields& table : fields.tables("run"))
+    for (Run& run : runs_from(table, item)) item.runs.push_back(std::move(run));
   if (item.runs.empty()) fields.refuse("run", "at least one table [[run]]");
   for (const Fields& table : fields.tables("figure")) item.figures.push_back(figure_from(table, item));
   for (const Fields& table : fields.tables("compare")) item.comparisons.push_back(comparison_from(table, item));
@@ -205,6 +257,13 @@ std::string meaning_of(const Comparison& c) {
       return "Time of resampling: ns per draw" + weights;
     case Kind::kResampleCost:
       return "Cost of resampling: its error times its time" + weights;
+    case Kind::kTrack:
+      return fmt::format("Figure of a track, {} over filter seeds and drawn clips", kMiddles[c.median ? 1 : 0]);
+    case Kind::kParticlesEnough:
+      return fmt::format(
+          "Particles that are enough: the least number from which on the centre error, a mean over filter seeds and "
+          "drawn clips, is at most {:g} % above that of the most particles tried",
+          100 * c.slack);
   }
   return "";
 }

@@ -26,16 +26,29 @@ struct Source {
   bool simulated() const { return observations.empty(); }
 };
 
-/// One filter run of an item: options as on the command line of `mote run`.
+/// What an item's runs track: a clip among the data that others made ([clip]), or one that is drawn ([drawn]).
+struct Clip {
+  std::string where;
+  std::string video, truth, init = {};    ///< under MOTE_DATA; empty for a drawn clip. The first box as for --init
+  int frames = 0;                         ///< that are tracked
+  std::uint64_t seed = 1;                 ///< of a drawn clip
+  std::vector<std::string> options = {};  ///< of every run
+
+  bool drawn() const { return video.empty(); }
+};
+
+/// One filter run of an item: options as on the command line of `mote run`; of an item on a clip, of `mote track`.
 struct Run {
   std::string where;
   std::string name;
   std::vector<std::string> options;
   std::vector<std::string> settings;  ///< settings of the filter's model where they differ from the recording's
+  std::string series = {};            ///< of runs that differ in their particles: the name of the table they stand in
+  int particles = 0;                  ///< of such a run
 };
 
 /// What is computed and compared with the paper. With one run the quantity itself; with two, the first run's over the
-/// second's, but for kMeanDifference, which needs two, and kNormalisedError.
+/// second's, but for kMeanDifference, which needs two, and kNormalisedError. kParticlesEnough takes series of runs.
 struct Comparison {
   enum class Kind {
     kMeanDifference,   ///< RMS over time of the difference of two runs' mean estimates, each averaged over repeats
@@ -48,6 +61,8 @@ struct Comparison {
     kResampleError,    ///< on given weights: mean square error of the resampled mean, in multinomial variances
     kResampleTime,     ///< on given weights: nanoseconds per draw
     kResampleCost,     ///< the product of both: what halves when a scheme needs half the draws or half the time
+    kTrack,            ///< on a clip: a figure of the track's summary
+    kParticlesEnough,  ///< on a clip: the least number of particles whose centre error is near that of the most
   };
   /// What a mean difference is measured in.
   enum class Unit { kStandardError, kPosteriorSd, kAbsolute };
@@ -58,6 +73,7 @@ struct Comparison {
   std::vector<std::string> runs;
   std::string state;                 ///< a state, or "position" for the RMSE of x and y together
   std::string key;                   ///< of the summary
+  double slack = 0;                  ///< of kParticlesEnough: share that the centre error may be above that of the most
   double ess = 0;                    ///< level of the weights
   Unit unit = Unit::kStandardError;  ///< of a mean difference
   bool median = false;               ///< over the repeats, instead of the mean
@@ -76,6 +92,7 @@ struct Figure {
   bool error = false;                  ///< draw |mean - truth| instead
   std::vector<std::string> runs = {};  ///< drawn; empty: all
   double ess = 0;                      ///< of an item on weights: error against time at this level
+  std::vector<int> frames = {};  ///< of an item on a clip: these frames of a run; empty: centre error over particles
 };
 
 /// One item.
@@ -83,6 +100,7 @@ struct Item {
   std::string file, paper, name, title, source, printed, note;
   Source recording;                     ///< of an item without weights
   std::optional<WeightSource> weights;  ///< resamplers on given weights, instead of filters on a recording
+  std::optional<Clip> clip;             ///< or the tracker on a clip
   std::vector<Run> runs;
   std::vector<Figure> figures;
   std::vector<Comparison> comparisons;
@@ -91,6 +109,12 @@ struct Item {
 /// The figures of a summary that a comparison may ask for.
 inline constexpr std::array<std::string_view, 5> kSummaryKeys{"log_evidence", "mean_ess", "acceptance", "collapses",
                                                               "ns_per_particle_step"};
+
+/// The figures of a track that a comparison may ask for; those of time are a particle's stages in microseconds, and how
+/// much longer than the others its weight takes.
+inline constexpr std::array<std::string_view, 10> kTrackKeys{
+    "overlap", "centre_error_px", "success", "lost_frames", "frames_per_second",
+    "tp_us",   "tw_us",           "td_us",   "tw_over_tp",  "tw_over_td"};
 
 /// Reads an item. `paper` is the name of its paper's folder.
 ///

@@ -57,6 +57,10 @@ Laboratory::Laboratory(Item item) : item_(std::move(item)) {
     for (const Run& run : item_.runs) benches_.emplace(run.name, bench_for(run));
     return;
   }
+  if (item_.clip) {
+    cinema_ = std::make_unique<Cinema>(item_);
+    return;
+  }
   const Source& from = item_.recording;
   header_ = from.simulated() ? frame_header(from.columns) : read_table(from.observations).header;
   source_ = model_with(from.settings, from.where);
@@ -120,6 +124,7 @@ void Laboratory::check_comparisons() const {
 }
 
 std::size_t Laboratory::work() const {
+  if (cinema_) return cinema_->work();
   std::size_t runs = item_.weights ? 0 : item_.runs.size();
   for (const Comparison& c : item_.comparisons)
     runs += (c.kind == Kind::kNormalisedError ? 1 : c.runs.size()) * static_cast<std::size_t>(c.repeats);
@@ -198,6 +203,7 @@ std::vector<Tradeoff> Laboratory::tradeoffs() const {
 
 std::vector<double> Laboratory::sample(const Comparison& c, std::uint64_t repeat, std::size_t side) {
   if (item_.weights) return {resample_figure(c, repeat, side)};
+  if (cinema_) return cinema_->sample(c, repeat, side, ran_);
   const bool one_recording = repeats_one_recording(c.kind);
   const std::uint64_t apart = c.kind == Kind::kMeanDifference ? side * static_cast<std::uint64_t>(c.repeats) : 0;
   const RunRecord& run = record(c.runs[side], one_recording ? 0 : repeat, repeat + apart);
@@ -235,7 +241,9 @@ std::vector<double> Laboratory::sample(const Comparison& c, std::uint64_t repeat
     case Kind::kResampleError:
     case Kind::kResampleTime:
     case Kind::kResampleCost:
-      break;  // of items on weights
+    case Kind::kTrack:
+    case Kind::kParticlesEnough:
+      break;  // of items on weights and clips
   }
   return {kNaN};
 }
@@ -245,6 +253,8 @@ Samples Laboratory::samples_of(const Comparison& c) {
   samples.values.resize(c.kind == Kind::kNormalisedError ? 1 : c.runs.size());
   for (std::uint64_t r = 0; r < static_cast<std::uint64_t>(c.repeats); ++r)  // outside, so that times are paired
     for (std::size_t side = 0; side < samples.values.size(); ++side) samples.values[side].push_back(sample(c, r, side));
+  if (c.kind == Kind::kParticlesEnough)
+    for (const std::string& series : c.runs) samples.particles.push_back(cinema_->particles_of(series));
   if (c.kind != Kind::kMeanDifference || c.unit != Comparison::Unit::kPosteriorSd) return samples;
   const std::size_t d = *place_of(c.state);
   for (std::uint64_t r = 0; r < static_cast<std::uint64_t>(c.repeats); ++r) {
@@ -285,12 +295,19 @@ void Laboratory::run_filters(Outcome& outcome) {
     }
 }
 
+void Laboratory::show_clips(Outcome& outcome) {
+  for (const Figure& figure : item_.figures)
+    if (!figure.frames.empty()) outcome.pictures.push_back(cinema_->picture(figure, ran_));
+  outcome.tracks = cinema_->rows();
+}
+
 Outcome Laboratory::regenerate(const std::function<void()>& ran) {
   ran_ = ran;
   Outcome outcome;
-  if (!item_.weights) run_filters(outcome);
+  if (!item_.weights && !cinema_) run_filters(outcome);
   for (const Comparison& comparison : item_.comparisons) outcome.results.push_back(judged(comparison));
   if (item_.weights) outcome.tradeoffs = tradeoffs();
+  if (cinema_) show_clips(outcome);
   return outcome;
 }
 

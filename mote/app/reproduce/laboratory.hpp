@@ -8,6 +8,7 @@
 
 #include "mote/app/catalogue/scene.hpp"
 #include "mote/app/commands/job.hpp"
+#include "mote/app/reproduce/cinema.hpp"
 #include "mote/app/reproduce/item.hpp"
 #include "mote/app/reproduce/statistics.hpp"
 
@@ -37,6 +38,8 @@ struct Outcome {
   std::vector<std::pair<std::string, RunRecord>> records;  ///< by run, those that did not collapse
   std::vector<std::string> collapses;                      ///< what the others said
   std::vector<Tradeoff> tradeoffs;                         ///< of an item on weights, instead of records
+  std::vector<TrackRow> tracks;                            ///< of an item on a clip, likewise
+  std::vector<report::Picture> pictures;                   ///< of an item on a clip
   std::vector<Result> results;
 };
 
@@ -51,6 +54,8 @@ class Laboratory {
   explicit Laboratory(Item item);
 
   const Item& item() const { return item_; }
+  /// Where the item's clip should be and is not, so that the item cannot be regenerated; empty if nothing is missing.
+  std::string missing() const { return cinema_ ? cinema_->missing() : ""; }
   /// Filter runs that regenerate() takes, those it has made before included.
   std::size_t work() const;
   /// `ran` is called after every filter run.
@@ -74,6 +79,7 @@ class Laboratory {
   double resample_figure(const Comparison& comparison, std::uint64_t repeat, std::size_t side);
   std::vector<Tradeoff> tradeoffs() const;
   void run_filters(Outcome& outcome);
+  void show_clips(Outcome& outcome);
   Samples samples_of(const Comparison& comparison);
   std::vector<double> sample(const Comparison& comparison, std::uint64_t repeat, std::size_t side);
   std::vector<double> mean_estimates(const RunRecord& record, std::size_t state);
@@ -87,6 +93,7 @@ class Laboratory {
   std::map<std::uint64_t, Scene> scenes_;
   std::map<std::tuple<std::string, std::uint64_t, std::uint64_t>, RunRecord> records_;
   std::map<Level, std::vector<Resampled>> resamplings_;  // by run
+  std::unique_ptr<Cinema> cinema_;                       // of an item on a clip
   std::function<void()> ran_;
 };
 

@@ -112,7 +112,9 @@ report::Page page_of(const std::string& paper, const std::vector<Regenerated>& a
     held += holding(outcome);
     compared += outcome.results.size();
     page.facts.push_back({name_of(item), fmt::format("{} of {} hold", holding(outcome), outcome.results.size())});
-    for (const Figure& figure : item.figures) page.charts.push_back(chart_of(item, figure, outcome));
+    for (const Figure& figure : item.figures)
+      if (figure.frames.empty()) page.charts.push_back(chart_of(item, figure, outcome));
+    page.pictures.insert(page.pictures.end(), outcome.pictures.begin(), outcome.pictures.end());
     page.tables.push_back(comparisons_table(item, outcome));
     page.command += fmt::format("\n\n# {}: {}\n{}", name_of(item), item.title, script_for(item));
     page.command.pop_back();

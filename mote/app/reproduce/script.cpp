@@ -13,10 +13,28 @@ std::string set_options(const std::vector<std::string>& settings) {
   return words;
 }
 
+/// A word behind the folder that MOTE_DATA names.
+std::string in_data(const std::string& file) { return "\"$MOTE_DATA\"/" + shell_word(file); }
+
+std::string tracks_for(const Item& item) {
+  const Clip& clip = *item.clip;
+  std::string script;
+  for (const Run& run : item.runs) {
+    script += fmt::format("mote track {} --init {} --truth {} --frames {}", in_data(clip.video), clip.init,
+                          in_data(clip.truth), clip.frames);
+    for (const auto& options : {clip.options, run.options})
+      for (const std::string& option : options) script += " " + shell_word(option);
+    if (run.particles > 0) script += fmt::format(" --particles {}", run.particles);
+    script += fmt::format(" --summary {}-{}.json\n", slug(item.paper + "-" + item.name), slug(run.name));
+  }
+  return script;
+}
+
 }  // namespace
 
 std::string script_for(const Item& item) {
   if (item.weights) return "";
+  if (item.clip) return item.clip->drawn() ? "" : tracks_for(item);
   const Source& from = item.recording;
   const std::string base = slug(item.paper + "-" + item.name);
   std::string data = from.observations;

@@ -57,7 +57,17 @@ double spread(const Values& values) {
   return std::sqrt(variances / static_cast<double>(n));
 }
 
-double of_one_run(const Comparison& c, const Values& values) {
+/// The least number of particles from which on the mean error stays near that of the most.
+double enough(const Comparison& c, const Values& errors, const std::vector<double>& particles) {
+  std::size_t least = particles.size() - 1;
+  const double near = (1 + c.slack) * mean_at(errors, least);
+  while (least > 0 && mean_at(errors, least - 1) <= near) --least;
+  return std::isfinite(near) ? particles[least] : kNaN;
+}
+
+double of_one_run(const Comparison& c, const Samples& samples, std::size_t side) {
+  const Values& values = samples.values[side];
+  if (c.kind == Kind::kParticlesEnough) return enough(c, values, samples.particles[side]);
   if (c.kind == Kind::kMeanSpread || c.kind == Kind::kEvidenceSpread) return spread(values);
   if (c.kind == Kind::kNormalisedError) return std::sqrt(mean_at(values, 0));
   return c.median ? median(values) : mean_at(values, 0);
@@ -75,13 +85,14 @@ Samples without(const Samples& samples, std::size_t repeat) {
 
 double statistic(const Comparison& c, const Samples& samples) {
   if (c.kind == Kind::kMeanDifference) return mean_difference(c.unit, samples);
-  const double first = of_one_run(c, samples.values[0]);
-  return samples.values.size() == 2 ? first / of_one_run(c, samples.values[1]) : first;
+  const double first = of_one_run(c, samples, 0);
+  return samples.values.size() == 2 ? first / of_one_run(c, samples, 1) : first;
 }
 
 std::optional<double> standard_error(const Comparison& c, const Samples& samples) {
   const bool judges_itself = c.kind == Kind::kMeanDifference && c.unit == Comparison::Unit::kStandardError;
-  if (c.median || judges_itself || samples.repeats() < 3) return std::nullopt;
+  const bool counts = c.kind == Kind::kParticlesEnough;
+  if (c.median || judges_itself || counts || samples.repeats() < 3) return std::nullopt;
   const std::size_t n = samples.repeats();
   Values left;
   for (std::size_t r = 0; r < n; ++r) left.push_back({statistic(c, without(samples, r))});

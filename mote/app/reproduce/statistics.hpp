@@ -11,10 +11,12 @@ namespace mote::reproduce {
 /// What a comparison takes from its repeats: a few numbers of each, by run.
 ///
 /// shape   values: (runs, R, n); sds: (R, n), the posterior deviations of the second run, for kMeanDifference
-///         n = T steps for kMeanDifference and kMeanSpread, else 1
+///         n = T steps for kMeanDifference and kMeanSpread, the runs of a series for kParticlesEnough, else 1;
+///         particles: (runs, n) for kParticlesEnough, rising
 struct Samples {
   std::vector<std::vector<std::vector<double>>> values;
   std::vector<std::vector<double>> sds;
+  std::vector<std::vector<double>> particles = {};
 
   std::size_t repeats() const { return values.front().size(); }
 };
@@ -24,6 +26,7 @@ struct Samples {
 ///   mean-difference   sqrt(mean_t (a_t - b_t)^2) / unit,   a_t, b_t: means over repeats
 ///                     unit: sqrt(mean_t (var a_t + var b_t) / R), or each difference by its posterior sd, or 1
 ///   mean-spread       sqrt(mean_t var a_t)
+///   particles-enough  min {N_i: mean a_j <= (1 + slack) mean a_n for all j >= i},   a_j: errors with N_j particles
 ///   evidence-spread   sqrt(var a);   normalised-error   sqrt(mean a), a: mean squares;   the others: mean or median of
 ///   a
 ///
@@ -31,8 +34,8 @@ struct Samples {
 /// error   none; NaN where a value is
 double statistic(const Comparison& comparison, const Samples& samples);
 
-/// Its standard error over the repeats, by leaving out one repeat at a time (jackknife); nothing for medians and for a
-/// mean difference in standard errors, which judges itself.
+/// Its standard error over the repeats, by leaving out one repeat at a time (jackknife); nothing for medians, for
+/// numbers of particles and for a mean difference in standard errors, which judges itself.
 std::optional<double> standard_error(const Comparison& comparison, const Samples& samples);
 
 }  // namespace mote::reproduce

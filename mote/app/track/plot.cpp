@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -55,18 +56,19 @@ std::vector<Chart> truth_charts(const TrackRecord& record) {
 }
 
 std::vector<Fact> facts_of(const TrackRecord& record) {
-  const double frames = static_cast<double>(record.tracks.size());
-  const double particles = std::max(1.0, static_cast<double>(record.times.particles));
+  const FrameTimes frames = frame_times_ms(record);
+  const ParticleTimes times = particle_times_us(record);
   std::vector<Fact> facts{
       {"Video", record.video},
       {"Filter", std::string(name_of(record.plan.filter))},
       {"Particles", std::to_string(record.plan.particles)},
       {"Seed", std::to_string(record.plan.seed)},
       {"Frames", std::to_string(record.tracks.size())},
-      {"Speed", fmt::format("{:.3g} frames/s", frames / record.seconds)},
+      {"Speed", fmt::format("{:.3g} frames/s", frame_rate(record))},
+      {"A frame: half, 99 in 100, all within",
+       fmt::format("{:.3g}, {:.3g}, {:.3g} ms", frames.p50, frames.p99, frames.max)},
       {"A particle's proposal, weight, selection",
-       fmt::format("{:.2f}, {:.2f}, {:.2f} µs", 1e6 * record.times.propose / particles,
-                   1e6 * record.times.weigh / particles, 1e6 * record.times.select / particles)},
+       fmt::format("{:.2f}, {:.2f}, {:.2f} µs", times.tp, times.tw, times.td)},
       {"Frames without the target", std::to_string(std::count_if(record.tracks.begin(), record.tracks.end(),
                                                                  [](const auto& t) { return t.lost; }))}};
   if (record.truth.empty()) return facts;
@@ -85,13 +87,36 @@ std::vector<vision::Box> boxes_of(const TrackRecord& record) {
   return boxes;
 }
 
+FrameTimes frame_times_ms(const TrackRecord& record) {
+  std::vector<double> sorted = record.frame_seconds;
+  if (sorted.empty()) return {};
+  std::sort(sorted.begin(), sorted.end());
+  const auto within = [&](double share) {
+    const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
+    return 1e3 * sorted[rank - 1];
+  };
+  return {within(0.5), within(0.99), within(1)};
+}
+
+double frame_rate(const TrackRecord& record) {
+  const double seconds = std::accumulate(record.frame_seconds.begin(), record.frame_seconds.end(), 0.0);
+  return static_cast<double>(record.tracks.size()) / seconds;
+}
+
+ParticleTimes particle_times_us(const TrackRecord& record) {
+  const vision::StageTimes& times = record.times;
+  const double per_particle = 1e6 / std::max(1.0, static_cast<double>(times.particles));
+  return {times.propose * per_particle, times.weigh * per_particle, times.select * per_particle};
+}
+
 std::vector<std::string> losses(const TrackRecord& record) {
   std::vector<std::string> texts;
   for (std::size_t k = 0; k < record.tracks.size();) {
     if (!record.tracks[k++].lost) continue;
     const std::size_t from = k;
     while (k < record.tracks.size() && record.tracks[k].lost) ++k;
-    texts.push_back(fmt::format("frame {} to {} ({} frames)", from, k, k - from + 1));
+    texts.push_back(from == k ? fmt::format("frame {}", k)
+                              : fmt::format("frame {} to {} ({} frames)", from, k, k - from + 1));
   }
   return texts;
 }

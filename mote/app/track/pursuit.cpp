@@ -36,7 +36,7 @@ Pursuit::Pursuit(std::string where, TrackerOptions options, std::optional<Box> i
 const Track& Pursuit::step(const cv::Mat& frame) {
   const auto start = std::chrono::steady_clock::now();
   record_.tracks.push_back(tracker_ ? next(frame) : begin(frame));
-  record_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  record_.frame_seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   if (record_.tracks.back().report.collapsed && options_.plan.on_collapse == OnCollapse::kStop)
     throw Refusal(ExitCode::kCollapsed,
                   fmt::format("{}: frame {}: all particles have weight zero. Pass --on-collapse keep.", where_,
@@ -65,9 +65,14 @@ Track Pursuit::begin(const cv::Mat& frame) {
     check_box(frame);
     return take(frame, *init_);
   }
-  if (!detector_ || record_.tracks.size() % kEvery != 0) return no_target();
-  const std::vector<Detection> found = detector_->detect(frame);
-  return found.empty() ? no_target() : take(frame, found.front().box);
+  const auto chosen = choice_.note(detections(frame, record_.tracks.size()));
+  return chosen ? take(frame, *chosen) : no_target();
+}
+
+/// What the detector finds; it looks now and then, and in every frame while a find is watched.
+std::vector<Detection> Pursuit::detections(const cv::Mat& frame, std::size_t frames_without) const {
+  if (!detector_ || (frames_without % kEvery != 0 && !choice_.watching())) return {};
+  return detector_->detect(frame);
 }
 
 Track Pursuit::take(const cv::Mat& frame, const Box& box) {
@@ -84,12 +89,15 @@ Track Pursuit::take(const cv::Mat& frame, const Box& box) {
 }
 
 Track Pursuit::next(const cv::Mat& frame) {
+  if (!tracker_->lost()) return tracker_->step(frame);
+  const std::vector<Detection> found = detections(frame, static_cast<std::size_t>(tracker_->gone()));
   std::vector<Box> candidates;
-  if (detector_ && tracker_->lost() && tracker_->gone() % kEvery == 0)
-    for (const Detection& detection : detector_->detect(frame)) candidates.push_back(detection.box);
+  for (const Detection& detection : found) candidates.push_back(detection.box);
   Track track = tracker_->step(frame, candidates);
-  if (track.lost && tracker_->gone() > kGiveUp && !candidates.empty()) return take(frame, candidates.front());
-  return track;
+  if (!track.lost) choice_ = {};
+  if (!track.lost || tracker_->gone() <= kGiveUp) return track;
+  const auto chosen = choice_.note(found);
+  return chosen ? take(frame, *chosen) : track;
 }
 
 void Pursuit::add_times() {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "mote/app/track/plot.hpp"
-#include "mote/vision/detector.hpp"
+#include "mote/vision/choice.hpp"
 
 namespace mote {
 
@@ -29,12 +29,14 @@ class Pursuit {
   vision::Track begin(const cv::Mat& frame);
   vision::Track take(const cv::Mat& frame, const vision::Box& box);
   vision::Track next(const cv::Mat& frame);
+  std::vector<vision::Detection> detections(const cv::Mat& frame, std::size_t frames_without) const;
   void add_times();
 
   std::string where_;
   vision::TrackerOptions options_;
   std::optional<vision::Box> init_;
   std::optional<vision::Detector> detector_;
+  vision::Choice choice_;
   std::optional<vision::Tracker> tracker_;
   vision::Size first_{};
   TrackRecord record_;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <memory>
 
 #include <fmt/format.h>
 #include <opencv2/core/utils/logger.hpp>
@@ -17,17 +18,22 @@ ExitCode run_train(const Arguments& arguments) {
   const std::string out = arguments.required("--out", "a file for the detector", "Pass --out vehicles.txt.");
   for (const std::string name : {"--positives", "--negatives"})
     arguments.required(name, "a picture of 64 x 64 patches", fmt::format("Pass {} patches.png.", name));
+  std::vector<std::unique_ptr<vision::Frames>> scenes;
+  for (const std::string& path : arguments.list("--scenes"))
+    scenes.push_back(vision::open_frames(path, vision::Sizes::kAny));
   OutputSet outputs;
+  for (const std::string name : {"--positives", "--negatives"})
+    for (const std::string& path : arguments.list(name)) outputs.protect(path);
+  for (const auto& frames : scenes)
+    for (const std::string& path : frames->files()) outputs.protect(path);
   Output* file = outputs.open(out);
   vision::Training training;
   for (const std::string& path : arguments.list("--positives")) training.add_mosaic(path, true);
   for (const std::string& path : arguments.list("--negatives")) training.add_mosaic(path, false);
   std::vector<float> weights = training.train();
   std::size_t hard = 0;
-  for (const std::string& folder : arguments.list("--scenes")) {
-    const auto frames = vision::open_frames(folder);
+  for (const auto& frames : scenes)
     while (const auto frame = frames->next()) hard += training.add_hard_negatives(*frame, weights);
-  }
   if (hard > 0) weights = training.train();
   for (const float weight : weights) file->write(fmt::format("{}\n", weight));
   outputs.commit();

@@ -112,13 +112,13 @@ void BlockSums::moments(const Totals& totals, std::span<Moments> all) const {
 
 void BlockSums::map_children(const Totals& totals, double u, ChildMap& map) const {
   const std::size_t blocks = weights_.size();
-  map.position.resize(blocks);
+  map.position.resize(blocks + 1);
   map.children_per_weight.resize(blocks);
   map.first.resize(blocks + 1);
   const auto n = static_cast<double>(all_);
   const double per_weight = n / totals.weight;
   if (alone_in_one_block()) {
-    map.position[0] = -u;
+    map.position = {-u, n - u};
     map.children_per_weight[0] = per_weight;
     map.first[0] = 0;
     map.first[1] = static_cast<std::uint32_t>(all_);
@@ -129,9 +129,9 @@ void BlockSums::map_children(const Totals& totals, double u, ChildMap& map) cons
     const double position = before.value() * per_weight - u;
     // what lies behind all weight begins behind the last child, however the product was rounded
     map.first[b] = static_cast<std::uint32_t>(before == totals.all ? n : std::clamp(std::ceil(position), 0.0, n));
+    map.position[b] = position;
     if (b == blocks) break;
     const double scale = totals.scale_of(weights_[b].shift);
-    map.position[b] = position;
     map.children_per_weight[b] = per_weight * scale;
     before.add(scale * weights_[b].weight);
   }

@@ -137,6 +137,7 @@ class VectorImportanceFilter final : public Filter {
     if (migration_ && parents_ == Parents::kMapped)
       migration_->move(map_, now_, weights_.data(), desks_[0].stream, desks_[0].columns);
     crew_.run(pass_.blocks(), [&](std::size_t share, std::size_t first, std::size_t last) {
+      const lanes::SubnormalsAreZero fast;
       Desk& desk = desks_[share];
       if (parents_ == Parents::kMapped) begin_children(desk, first * kBlock);
       for (std::size_t b = first; b < last; ++b) {

@@ -126,6 +126,7 @@ class VectorMetropolisFilter final : public Filter {
   void pass(Step t, Purpose purpose, Particles<R>& to) {
     pass_.resize(to.size());
     crew_.run(pass_.blocks(), [&](std::size_t share, std::size_t first, std::size_t last) {
+      const lanes::SubnormalsAreZero fast;
       Desk& desk = desks_[share];
       for (std::size_t b = first; b < last; ++b) {
         for (std::size_t d = 0; d < to.dimensions(); ++d) desk.to[d] = to.component(d).data() + b * kBlock;
@@ -196,6 +197,7 @@ class VectorMetropolisFilter final : public Filter {
     for (Desk& desk : desks_) desk.chains = {};
     // shared out by the blocks' number, which says how much work there is
     crew_.run(blocks, [&](std::size_t share, std::size_t first, std::size_t last) {
+      const lanes::SubnormalsAreZero fast;
       for (std::size_t g = groups * first / blocks; g < groups * last / blocks; ++g) {
         const ChainReport group = Chains(layout_, g, log_weights_.data(), log_uniforms_.data(), from, starts).run(to);
         desks_[share].chains.offered += group.offered;
