@@ -25,6 +25,7 @@ class Migration {
   /// Sends and receives the children of the map, whose parents are particles of x on this rank.
   void move(const ChildMap& map, const Particles<R>& x, const R* weights, SurvivorStream<R, kD>& stream,
             const ColumnPointers<R, kD>& desk) {
+    const lanes::SubnormalsAreZero as_in_a_pass;  // or survivors could be others
     born_ = team_->gather(map.first.front());
     born_.push_back(static_cast<std::uint32_t>(home_.all));
     const std::size_t me = team_->rank();
