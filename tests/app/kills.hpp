@@ -21,7 +21,6 @@ inline Survival run_and_end(const Scratch& scratch, const std::vector<std::strin
                             int most, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> delay(0, most);
-  const int code_when_ended = signal == SIGKILL ? 128 + SIGKILL : 130;
   Survival survival;
   for (int attempt = 0; attempt <= times; ++attempt) {
     Child child(scratch, words);
@@ -31,7 +30,9 @@ inline Survival run_and_end(const Scratch& scratch, const std::vector<std::strin
     }
     const auto end = child.end();
     if (end.code == 0) break;
-    if (end.code == code_when_ended && attempt < times) {
+    // 130: the program has seen the signal and ends by itself; before its start is over the signal ends it
+    const bool by_signal = end.code == 128 + signal || (signal != SIGKILL && end.code == 130);
+    if (by_signal && attempt < times) {
       ++survival.ended;
       continue;
     }
