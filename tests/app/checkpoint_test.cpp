@@ -30,6 +30,11 @@ class Broken : public ::testing::TestWithParam<std::string> {
     std::string line = "mote " + kept(every);
     return line.replace(line.find("q0.9(range)"), 11, "'q0.9(range)'");
   }
+  /// Waits until the run is at work.
+  void await_checkpoint() const {
+    for (int i = 0; i < 1000 && !std::filesystem::exists(scratch_.path() / "c"); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
   void expect_whole() const {
     EXPECT_EQ(scratch_.read("e.csv"), scratch_.read("whole.csv"));
     EXPECT_EQ(scratch_.files().size(), 3U) << "the checkpoint has served and goes; nothing else is left";
@@ -62,8 +67,8 @@ class Checkpoints : public Broken {};
 
 TEST_F(Checkpoints, CtrlCLeavesOneAndSaysSo) {
   prepare("-n 20000", 400);
-  Child child(scratch_, words_of(kept("1000000")));
-  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  Child child(scratch_, words_of(kept("1")));
+  await_checkpoint();
   child.signal(SIGINT);
   const auto end = child.end();
   EXPECT_EQ(end.code, 130);
@@ -132,8 +137,7 @@ TEST_F(Checkpoints, KnowTheFileOfAModel) {
   const std::string run =
       "run linear-gaussian --data d.csv --set file=m.toml -n 100 --out e.csv --checkpoint c --checkpoint-every 1000";
   Child child(scratch_, words_of(run));
-  for (int i = 0; i < 1000 && !scratch_.files().contains("c"); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  await_checkpoint();
   child.signal(SIGINT);
   EXPECT_EQ(child.end().code, 130) << "within a gap, too";
   scratch_.write("m.toml", "F=[[0.6]]\n" + matrices);
