@@ -194,6 +194,7 @@ TEST(ReproduceClips, WhatTheTrackerRefusesIsSaid) {
   EXPECT_EQ(ended.code, 5);
   EXPECT_NE(ended.err.find("ppf Fig. 0: ./v: expected a video with at least one frame"), std::string::npos)
       << ended.err;
+  EXPECT_EQ(ended.err.find('?'), std::string::npos) << ended.err;  // a line's end shown as a control character
   EXPECT_FALSE(fs::exists(press.path() / "r/index.html"));
 }
 

@@ -151,7 +151,8 @@ void Cinema::run_words(const std::vector<std::string>& words) const {
   const TrackerEnd end = run_tracker(words);
   if (end.code == 0) return;
   const auto code = end.code == 4 || end.code == 130 ? static_cast<ExitCode>(end.code) : ExitCode::kOutsideTool;
-  const std::string said(trimmed(end.error));
+  std::string said = end.error.substr(0, end.error.find_last_not_of('\n') + 1);
+  said.erase(0, said.rfind('\n') + 1);  // its last line: notes stand before
   throw Refusal(code, fmt::format("{} {}: {}", paper_, name_, said.empty() ? "mote-track failed." : said));
 }
 
