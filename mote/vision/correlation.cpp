@@ -93,10 +93,11 @@ cv::Mat response_of(const cv::Mat& sum, const cv::Mat& denominator, double regul
 
 cv::Mat gaussian_bump(cv::Size size, double sd_x, double sd_y) {
   cv::Mat out(size, CV_32F);
+  const cv::Point middle(size.width / 2, size.height / 2);
   for (int row = 0; row < size.height; ++row)
     for (int column = 0; column < size.width; ++column) {
-      const double x = (column - size.width / 2) / sd_x;
-      const double y = (row - size.height / 2) / sd_y;
+      const double x = (column - middle.x) / sd_x;
+      const double y = (row - middle.y) / sd_y;
       out.at<float>(row, column) = static_cast<float>(std::exp(-0.5 * (x * x + y * y)));
     }
   return out;

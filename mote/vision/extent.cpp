@@ -71,10 +71,11 @@ ExtentResponse ExtentFilter::respond(const View& view, const Box& box) const {
   const cv::Mat z = ladder(view, box);
   cv::Mat sum = cv::Mat::zeros(1, z.cols, CV_32FC2);
   add_conjugate_product(numerators_, z, 1, sum);
+  const int middle = options_.steps / 2 * kRefine;
   cv::Mat response = response_of(sum, denominator_, options_.regularisation, kRefine);
   return {{response.begin<float>(), response.end<float>()},
           std::log(options_.ratio) / kRefine,
-          static_cast<double>(options_.steps / 2 * kRefine)};
+          static_cast<double>(middle)};
 }
 
 }  // namespace mote::vision

@@ -92,7 +92,7 @@ class Votes {
 
  private:
   std::ptrdiff_t place(int row, int column) const {
-    return static_cast<std::ptrdiff_t>(((row + 1) * (columns_ + 2) + column + 1) * kDirections);
+    return (static_cast<std::ptrdiff_t>(row + 1) * (columns_ + 2) + column + 1) * kDirections;
   }
   void vote(Between row, Between column, float length, std::size_t direction) {
     float* upper = bins_.data() + place(row.cell, column.cell) + direction;
@@ -149,7 +149,8 @@ void describe(const float* bin, const std::array<float, 4>& gains, std::array<fl
       texture += value;
     }
     for (int k = 0; k < kOrientations; ++k)
-      out[static_cast<std::size_t>(kDirections + k)] += 0.5F * std::min((bin[k] + bin[k + kOrientations]) * gain, kCut);
+      out[static_cast<std::size_t>(kDirections) + static_cast<std::size_t>(k)] +=
+          0.5F * std::min((bin[k] + bin[k + kOrientations]) * gain, kCut);
     out[static_cast<std::size_t>(kDirections + kOrientations + (&gain - gains.data()))] = 0.2357F * texture;
   }
 }
