@@ -1,5 +1,5 @@
 #include "mote/app/commands/command.hpp"
-#include "mote/app/track/hand_over.hpp"
+#include "mote/app/commands/hand_over.hpp"
 
 int main(int count, char** words) {
   using namespace mote;

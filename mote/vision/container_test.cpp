@@ -1,13 +1,13 @@
 #include "mote/vision/container.hpp"
 
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include <gtest/gtest.h>
 
 #include "mote/base/refusal.hpp"
+#include "mote/base/scratch_folder.hpp"
 #include "mote/vision/drawing.hpp"
 #include "mote/vision/frames.hpp"
 #include "mote/vision/synthetic.hpp"
@@ -19,15 +19,7 @@ namespace fs = std::filesystem;
 
 class ContainerTest : public ::testing::Test {
  protected:
-  ContainerTest() {
-    std::string pattern = (fs::temp_directory_path() / "mote-container-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~ContainerTest() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  std::string file(const std::string& name) const { return folder_.file(name); }
   Container of(const std::string& bytes) const {
     std::ofstream(file("v"), std::ios::binary) << bytes;
     return container_of(file("v"));
@@ -39,7 +31,7 @@ class ContainerTest : public ::testing::Test {
     return file(name);
   }
 
-  fs::path folder_;
+  ScratchFolder folder_;
 };
 
 /// A number of four bytes, the most significant first (boxes) or last (RIFF).

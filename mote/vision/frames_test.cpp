@@ -1,12 +1,12 @@
 #include "mote/vision/frames.hpp"
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include <opencv2/imgcodecs.hpp>
 
 #include "mote/base/refusal.hpp"
+#include "mote/base/scratch_folder.hpp"
 #include "mote/vision/drawing.hpp"
 #include "mote/vision/synthetic.hpp"
 
@@ -17,15 +17,7 @@ namespace fs = std::filesystem;
 
 class FramesTest : public ::testing::Test {
  protected:
-  FramesTest() {
-    std::string pattern = (fs::temp_directory_path() / "mote-frames-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~FramesTest() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  std::string file(const std::string& name) const { return folder_.file(name); }
   /// A grey picture of one level.
   void picture(const std::string& name, int level, cv::Size size = {40, 30}) const {
     cv::imwrite(file(name), cv::Mat(size, CV_8U, cv::Scalar(level)));
@@ -46,7 +38,7 @@ class FramesTest : public ::testing::Test {
     return "";
   }
 
-  fs::path folder_;
+  ScratchFolder folder_;
 };
 
 TEST_F(FramesTest, AFolderInTheOrderOfItsNumbers) {
@@ -54,7 +46,7 @@ TEST_F(FramesTest, AFolderInTheOrderOfItsNumbers) {
   picture("shot9.png", 2);
   picture("shot1.png", 1);
   std::ofstream(file("notes.txt")) << "no picture";
-  EXPECT_EQ(levels(folder_.string()), (std::vector<int>{1, 2, 3}));
+  EXPECT_EQ(levels(folder_.path().string()), (std::vector<int>{1, 2, 3}));
 }
 
 TEST_F(FramesTest, APatternFromOneToItsFirstGap) {
@@ -85,23 +77,23 @@ TEST_F(FramesTest, AFilmThatIsDroppedLeavesNothing) {
     Film film(file("v.avi"), 25);
     film.add(testing::texture({64, 48}, 6, 1));
   }
-  EXPECT_TRUE(fs::is_empty(folder_));
+  EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 
 TEST_F(FramesTest, RefusesWhatIsNoVideo) {
   EXPECT_NE(refusal(file("none.mp4")).find("got nothing of that name"), std::string::npos);
-  EXPECT_NE(refusal(folder_.string()).find("a folder without any"), std::string::npos);
+  EXPECT_NE(refusal(folder_.path().string()).find("a folder without any"), std::string::npos);
   EXPECT_NE(refusal(file("x%03d.png")).find("no such file"), std::string::npos);
   std::ofstream(file("empty.mp4")) << "";
   EXPECT_NE(refusal(file("empty.mp4")).find("cannot be decoded"), std::string::npos);
   std::ofstream(file("bad.png")) << "no picture";
-  EXPECT_NE(refusal(folder_.string()).find("bad.png"), std::string::npos);
+  EXPECT_NE(refusal(folder_.path().string()).find("bad.png"), std::string::npos);
 }
 
 TEST_F(FramesTest, RefusesAFrameOfAnotherSize) {
   picture("a1.png", 1);
   picture("a2.png", 2, {41, 30});
-  const std::string sentence = refusal(folder_.string());
+  const std::string sentence = refusal(folder_.path().string());
   EXPECT_NE(sentence.find("a2.png"), std::string::npos);
   EXPECT_NE(sentence.find("40 x 30"), std::string::npos);
   EXPECT_NE(sentence.find("41 x 30"), std::string::npos);

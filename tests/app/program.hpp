@@ -16,6 +16,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "mote/base/scratch_folder.hpp"
+
 namespace mote::testing {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -37,50 +39,32 @@ inline std::string slurp(const std::filesystem::path& path) {
   return text.str();
 }
 
-/// A scratch folder that goes with the test.
-class Scratch {
+/// A scratch folder that goes with the test, and a shell in it.
+class Scratch : public ScratchFolder {
  public:
-  Scratch() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "mote-test-XXXXXX").string();
-    path_ = mkdtemp(pattern.data());
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  Scratch(Scratch&&) = delete;
-  Scratch& operator=(Scratch&&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
   void write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name, std::ios::binary) << text;
+    std::ofstream(path() / name, std::ios::binary) << text;
   }
-  std::string read(const std::string& name) const { return slurp(path_ / name); }
+  std::string read(const std::string& name) const { return slurp(path() / name); }
 
   /// Runs a shell line in the folder; `mote` is the program under test.
   Ended shell(const std::string& line) const {
-    const std::string whole = "cd '" + path_.string() + "' && mote() { '" MOTE_PROGRAM "' \"$@\"; } && ( " + line +
+    const std::string whole = "cd '" + path().string() + "' && mote() { '" MOTE_PROGRAM "' \"$@\"; } && ( " + line +
                               " ) >.out 2>.err </dev/null";
     const int status = std::system(whole.c_str());
     Ended ended{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read(".out"), read(".err")};
-    std::filesystem::remove(path_ / ".out");
-    std::filesystem::remove(path_ / ".err");
+    std::filesystem::remove(path() / ".out");
+    std::filesystem::remove(path() / ".err");
     return ended;
   }
 
   /// Names of the files in the folder, sorted.
   std::map<std::string, std::string> files() const {
     std::map<std::string, std::string> all;
-    for (const auto& entry : std::filesystem::directory_iterator(path_))
+    for (const auto& entry : std::filesystem::directory_iterator(path()))
       if (entry.is_regular_file()) all[entry.path().filename().string()] = slurp(entry.path());
     return all;
   }
-
- private:
-  std::filesystem::path path_;
 };
 
 /// The program, or another one that starts it, as a child that is watched while it runs; standard error goes to the

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "mote/base/refusal.hpp"
+#include "mote/base/scratch_folder.hpp"
 
 namespace mote {
 namespace {
@@ -17,13 +18,6 @@ const RunFacts kFacts{{"MODEL", "growth"}, {"--particles", "1000"}, {"--draws", 
 
 class CheckpointFiles : public ::testing::Test {
  protected:
-  CheckpointFiles() {
-    std::string pattern = (fs::temp_directory_path() / "mote-checkpoint-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-    path_ = (folder_ / "c").string();
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   std::string bytes() const {
     std::ifstream file(path_, std::ios::binary);
     std::stringstream text;
@@ -50,8 +44,8 @@ class CheckpointFiles : public ::testing::Test {
     EXPECT_EQ(bytes(), before);
   }
 
-  fs::path folder_;
-  std::string path_;
+  ScratchFolder folder_;
+  std::string path_ = folder_.file("c");
 };
 
 TEST_F(CheckpointFiles, GiveBackWhatTheyTook) {
@@ -63,7 +57,8 @@ TEST_F(CheckpointFiles, GiveBackWhatTheyTook) {
   EXPECT_TRUE(file.found());
   EXPECT_TRUE(file.resume(keeper(state)));
   EXPECT_EQ(state, (std::vector<double>{4, 5}));
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1) << "nothing else is left";
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 1)
+      << "nothing else is left";
   file.remove();
   EXPECT_FALSE(CheckpointFile(path_, kFacts, 1).found());
 }

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "mote/base/refusal.hpp"
+#include "mote/base/scratch_folder.hpp"
 
 namespace mote {
 namespace {
@@ -17,21 +18,18 @@ namespace fs = std::filesystem;
 
 class Outputs : public ::testing::Test {
  protected:
-  Outputs() {
-    std::string pattern = (fs::temp_directory_path() / "mote-output-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string path(const std::string& name) const { return folder_.file(name); }
   std::string text_of(const std::string& name) const {
-    std::ifstream file(folder_ / name);
+    std::ifstream file(path(name));
     std::stringstream text;
     text << file.rdbuf();
     return text.str();
   }
-  std::ptrdiff_t files() const { return std::distance(fs::directory_iterator(folder_), fs::directory_iterator()); }
+  std::ptrdiff_t files() const {
+    return std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator());
+  }
 
-  fs::path folder_;
+  ScratchFolder folder_;
 };
 
 TEST_F(Outputs, AppearByCommit) {
@@ -87,7 +85,7 @@ TEST_F(Outputs, NeverGoOverAnInput) {
 }
 
 TEST_F(Outputs, SayWhichCannotBeWritten) {
-  for (const std::string& bad : {path("no/a"), folder_.string(), folder_.string() + "/", path("a/")}) {
+  for (const std::string& bad : {path("no/a"), folder_.path().string(), folder_.path().string() + "/", path("a/")}) {
     try {
       const Output output(bad);
       ADD_FAILURE() << bad;

@@ -9,11 +9,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "mote/app/commands/hand_over.hpp"
 #include "mote/app/commands/plan_options.hpp"
 #include "mote/app/files/text.hpp"
 #include "mote/app/reproduce/drawn_clip.hpp"
 #include "mote/app/terminal/signals.hpp"
-#include "mote/app/track/hand_over.hpp"
 #include "mote/base/numbers.hpp"
 #include "mote/base/refusal.hpp"
 
@@ -21,13 +21,6 @@ namespace mote::reproduce {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string scratch_folder() {
-  std::string pattern = (fs::temp_directory_path() / "mote-clips-XXXXXX").string();
-  if (mkdtemp(pattern.data()) == nullptr)
-    throw Refusal(ExitCode::kCannotWrite, {pattern, "", "a folder that can be made", "none", "Set TMPDIR."});
-  return pattern;
-}
 
 std::string bytes_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -82,11 +75,6 @@ Cinema::Cinema(const Item& item)
   }
 }
 
-Cinema::~Cinema() {
-  std::error_code ignored;
-  if (!scratch_.empty()) fs::remove_all(scratch_, ignored);
-}
-
 std::string Cinema::missing() const {
   if (clip_.drawn()) return "";
   std::error_code unknown;
@@ -110,6 +98,10 @@ std::vector<double> Cinema::particles_of(const std::string& series) const {
   return all;
 }
 
+const Cinema::Bench& Cinema::bench_of(const std::string& run) const {
+  return *std::find_if(benches_.begin(), benches_.end(), [&](const Bench& b) { return b.run.name == run; });
+}
+
 std::size_t Cinema::work() const {
   std::set<std::pair<std::string, int>> tracks;
   for (const Comparison& c : comparisons_)
@@ -121,14 +113,14 @@ std::size_t Cinema::work() const {
 }
 
 const Cinema::Reel& Cinema::reel(std::uint64_t repeat) {
-  if (scratch_.empty()) scratch_ = scratch_folder();
+  if (!scratch_) scratch_.emplace();
   const auto [found, fresh] = reels_.try_emplace(clip_.drawn() ? repeat : 0);
   if (!fresh) return found->second;
   if (!clip_.drawn()) {
     const fs::path data(data_);
     return found->second = {(data / clip_.video).string(), (data / clip_.truth).string(), clip_.init};
   }
-  const fs::path folder = fs::path(scratch_) / std::to_string(repeat);
+  const fs::path folder = scratch_->path() / std::to_string(repeat);
   fs::create_directory(folder);
   const std::string init = draw_clip(folder, clip_.frames, clip_.seed + repeat);
   return found->second = {(folder / "f%04d.pgm").string(), (folder / "truth.csv").string(), init};
@@ -159,13 +151,13 @@ void Cinema::run_words(const std::vector<std::string>& words) const {
 const TrackRow& Cinema::track(const std::string& run, std::uint64_t repeat, const std::function<void()>& ran) {
   const auto [found, fresh] = rows_.try_emplace({run, repeat});
   if (!fresh && !found->second.figures.empty()) return found->second;
-  const auto bench = std::find_if(benches_.begin(), benches_.end(), [&](const Bench& b) { return b.run.name == run; });
-  std::vector<std::string> all = words(*bench, repeat);
-  const std::string summary = scratch_ + "/summary.json";
+  const Bench& bench = bench_of(run);
+  std::vector<std::string> all = words(bench, repeat);
+  const std::string summary = scratch_->file("summary.json");
   all.insert(all.end(), {"--summary", summary});
   run_words(all);
   ran();
-  return found->second = {run, bench->run.series, bench->particles, repeat, figures_in(read_text(summary))};
+  return found->second = {run, bench.run.series, bench.particles, repeat, figures_in(read_text(summary))};
 }
 
 std::vector<double> Cinema::sample(const Comparison& c, std::uint64_t repeat, std::size_t side,
@@ -178,9 +170,9 @@ std::vector<double> Cinema::sample(const Comparison& c, std::uint64_t repeat, st
 
 report::Picture Cinema::picture(const Figure& figure, const std::function<void()>& ran) {
   const std::string& run = figure.runs.front();
-  const auto bench = std::find_if(benches_.begin(), benches_.end(), [&](const Bench& b) { return b.run.name == run; });
-  std::vector<std::string> all = words(*bench, 0);
-  const std::string sheet = scratch_ + "/sheet.jpg";
+  const Bench& bench = bench_of(run);
+  std::vector<std::string> all = words(bench, 0);
+  const std::string sheet = scratch_->file("sheet.jpg");
   all.insert(all.end(), {"--sheet", sheet, "--sheet-frames", fmt::format("{}", fmt::join(figure.frames, ","))});
   run_words(all);
   ran();

@@ -3,13 +3,14 @@
 
 #include <functional>
 #include <map>
-#include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "mote/app/reproduce/item.hpp"
+#include "mote/base/scratch_folder.hpp"
 #include "mote/report/page.hpp"
 
 namespace mote::reproduce {
@@ -27,11 +28,6 @@ class Cinema {
  public:
   /// error   Refusal (kBadData) naming file:line for options that `mote track` does not have
   explicit Cinema(const Item& item);
-  ~Cinema();
-  Cinema(const Cinema&) = delete;
-  Cinema& operator=(const Cinema&) = delete;
-  Cinema(Cinema&&) = delete;
-  Cinema& operator=(Cinema&&) = delete;
 
   /// Where the clip should be and is not; empty if it is there, or is drawn.
   std::string missing() const;
@@ -59,6 +55,7 @@ class Cinema {
     std::string video, truth, init;
   };
 
+  const Bench& bench_of(const std::string& run) const;
   const Reel& reel(std::uint64_t repeat);
   const TrackRow& track(const std::string& run, std::uint64_t repeat, const std::function<void()>& ran);
   std::vector<std::string> runs_of(const Comparison& comparison, std::size_t side) const;
@@ -70,7 +67,8 @@ class Cinema {
   std::vector<Figure> figures_;
   std::vector<Comparison> comparisons_;
   std::vector<Bench> benches_;
-  std::string data_, scratch_;
+  std::string data_;
+  std::optional<ScratchFolder> scratch_;  // from the first track on
   std::map<std::uint64_t, Reel> reels_;
   std::map<std::pair<std::string, std::uint64_t>, TrackRow> rows_;
 };

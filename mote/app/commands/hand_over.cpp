@@ -1,4 +1,4 @@
-#include "mote/app/track/hand_over.hpp"
+#include "mote/app/commands/hand_over.hpp"
 
 #include <array>
 #include <cerrno>
