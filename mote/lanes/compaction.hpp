@@ -47,7 +47,76 @@ MOTE_INLINE std::uint64_t marks_of(const std::uint8_t* flags) {
   return marks;
 }
 
-#if HWY_TARGET > HWY_AVX3
+#if HWY_TARGET <= HWY_AVX3
+
+/// The lanes for which a comparison of whole numbers holds, moved together to the front; the others hold anything.
+template <class R>
+class Keeper {
+ public:
+  explicit MOTE_INLINE Keeper(const hn::Mask<WholeTag<R>>& holds) : bits_(holds.raw) {}
+
+  /// How many there are.
+  MOTE_INLINE std::size_t count() const { return static_cast<std::size_t>(std::popcount(std::uint32_t{bits_})); }
+
+  MOTE_INLINE NumberRegister<R> operator()(NumberRegister<R> v) const {
+    if constexpr (std::is_same_v<R, float>)
+      return {_mm512_maskz_compress_ps(bits_, v.raw)};
+    else
+      return {_mm512_maskz_compress_pd(bits_, v.raw)};
+  }
+  MOTE_INLINE WholeRegister<R> operator()(WholeRegister<R> v) const {
+    return hn::BitCast(WholeTag<R>{}, (*this)(hn::BitCast(typename Registers<R>::Tag{}, v)));
+  }
+
+ private:
+  std::conditional_t<std::is_same_v<R, float>, __mmask16, __mmask8> bits_;
+};
+
+/// A register in which values are repeated: lane k holds values[number of marks among bits 1..k], bit 0 counting for
+/// nothing.
+template <class R>
+class Repeater {
+ public:
+  static constexpr std::size_t kLanes = Registers<R>::kPerRegister;
+
+  /// marks: bits at and beyond kLanes are ignored.
+  explicit MOTE_INLINE Repeater(std::uint64_t marks) : index_(index_of(static_cast<std::uint32_t>(marks) & kLater)) {}
+
+  /// shape   values: (kLanes,), at any address
+  MOTE_INLINE NumberRegister<R> operator()(const R* values) const {
+    const auto v = hn::LoadU(typename Registers<R>::Tag{}, values);
+    if constexpr (std::is_same_v<R, float>)
+      return {_mm512_permutexvar_ps(index_, v.raw)};
+    else
+      return {_mm512_permutexvar_pd(index_, v.raw)};
+  }
+
+ private:
+  static constexpr std::uint32_t kLater = ((1U << kLanes) - 1) & ~1U;
+
+  static MOTE_INLINE __m512i index_of(std::uint32_t later) {
+    using Counts = std::array<std::uint8_t, 8>;
+    static constexpr auto kCounts = detail::permutations<Counts, 8, 1>(detail::running_count);
+    const auto low = std::bit_cast<std::uint64_t>(kCounts[later & 255U]);
+    if constexpr (std::is_same_v<R, double>) {
+      return _mm512_cvtepu8_epi64(_mm_cvtsi64_si128(static_cast<long long>(low)));
+    } else {
+#ifdef __AVX512VPOPCNTDQ__
+      const __m512i up_to = _mm512_set_epi32(0xFFFF, 0x7FFF, 0x3FFF, 0x1FFF, 0xFFF, 0x7FF, 0x3FF, 0x1FF, 0xFF, 0x7F,
+                                             0x3F, 0x1F, 0xF, 7, 3, 1);
+      return _mm512_popcnt_epi32(_mm512_and_si512(_mm512_set1_epi32(static_cast<int>(later)), up_to));
+#else
+      const std::uint64_t high =
+          std::bit_cast<std::uint64_t>(kCounts[later >> 8U]) + (low >> 56U) * 0x0101010101010101ULL;
+      return _mm512_cvtepu8_epi32(_mm_set_epi64x(static_cast<long long>(high), static_cast<long long>(low)));
+#endif
+    }
+  }
+
+  __m512i index_;
+};
+
+#else
 
 /// A permutation of the lanes of a register, from a table of kBytes[0..2^lanes).
 template <class R>
@@ -87,43 +156,20 @@ class Permutation {
 #endif
 };
 
-#endif
-
-/// The lanes for which a comparison of whole numbers holds, moved together to the front; the others hold anything.
+/// As above, by a table of permutations.
 template <class R>
 class Keeper {
  public:
-  explicit MOTE_INLINE Keeper(const hn::Mask<WholeTag<R>>& holds)
-#if HWY_TARGET <= HWY_AVX3
-      : bits_(holds.raw){}
-#else
-      : bits_(bits_of(holds)), permuted_(kTable[bits_]) {
-  }
-#endif
+  explicit MOTE_INLINE Keeper(const hn::Mask<WholeTag<R>>& holds) : bits_(bits_of(holds)), permuted_(kTable[bits_]) {}
 
-        /// How many there are.
-        MOTE_INLINE std::size_t count() const {
-    return static_cast<std::size_t>(std::popcount(std::uint32_t{bits_}));
-  }
+  MOTE_INLINE std::size_t count() const { return static_cast<std::size_t>(std::popcount(bits_)); }
 
-  MOTE_INLINE NumberRegister<R> operator()(NumberRegister<R> v) const {
-#if HWY_TARGET <= HWY_AVX3
-    if constexpr (std::is_same_v<R, float>)
-      return {_mm512_maskz_compress_ps(bits_, v.raw)};
-    else
-      return {_mm512_maskz_compress_pd(bits_, v.raw)};
-#else
-    return permuted_(v);
-#endif
-  }
+  MOTE_INLINE NumberRegister<R> operator()(NumberRegister<R> v) const { return permuted_(v); }
   MOTE_INLINE WholeRegister<R> operator()(WholeRegister<R> v) const {
-    return hn::BitCast(WholeTag<R>{}, (*this)(hn::BitCast(typename Registers<R>::Tag{}, v)));
+    return hn::BitCast(WholeTag<R>{}, permuted_(hn::BitCast(typename Registers<R>::Tag{}, v)));
   }
 
  private:
-#if HWY_TARGET <= HWY_AVX3
-  std::conditional_t<std::is_same_v<R, float>, __mmask16, __mmask8> bits_;
-#else
   static MOTE_INLINE std::uint32_t bits_of(const hn::Mask<WholeTag<R>>& holds) {
     const auto sign = hn::BitCast(typename Registers<R>::Tag{}, hn::VecFromMask(WholeTag<R>{}, holds));
 #if HWY_TARGET == HWY_AVX2
@@ -143,69 +189,29 @@ class Keeper {
   static constexpr auto kTable = detail::permutations<typename P::Entry, P::kLanes, P::kBytes>(detail::place_of);
   std::uint32_t bits_;
   P permuted_;
-#endif
 };
 
-/// A register in which values are repeated: lane k holds values[number of marks among bits 1..k], bit 0 counting for
-/// nothing.
+/// As above, by a table of permutations.
 template <class R>
 class Repeater {
  public:
   static constexpr std::size_t kLanes = Registers<R>::kPerRegister;
 
-  /// marks: bits at and beyond kLanes are ignored.
-  explicit MOTE_INLINE Repeater(std::uint64_t marks)
-#if HWY_TARGET <= HWY_AVX3
-      : index_(index_of(static_cast<std::uint32_t>(marks) & kLater)){}
-#else
-      : permuted_(kTable[marks & kLater]) {
-  }
-#endif
+  explicit MOTE_INLINE Repeater(std::uint64_t marks) : permuted_(kTable[marks & kLater]) {}
 
-        /// shape   values: (kLanes,), at any address
-        MOTE_INLINE NumberRegister<R>
-        operator()(const R* values) const {
-    const auto v = hn::LoadU(typename Registers<R>::Tag{}, values);
-#if HWY_TARGET <= HWY_AVX3
-    if constexpr (std::is_same_v<R, float>)
-      return {_mm512_permutexvar_ps(index_, v.raw)};
-    else
-      return {_mm512_permutexvar_pd(index_, v.raw)};
-#else
-    return permuted_(v);
-#endif
+  MOTE_INLINE NumberRegister<R> operator()(const R* values) const {
+    return permuted_(hn::LoadU(typename Registers<R>::Tag{}, values));
   }
 
  private:
   static constexpr std::uint32_t kLater = ((1U << kLanes) - 1) & ~1U;
 
-#if HWY_TARGET <= HWY_AVX3
-  static MOTE_INLINE __m512i index_of(std::uint32_t later) {
-    using Counts = std::array<std::uint8_t, 8>;
-    static constexpr auto kCounts = detail::permutations<Counts, 8, 1>(detail::running_count);
-    const auto low = std::bit_cast<std::uint64_t>(kCounts[later & 255U]);
-    if constexpr (std::is_same_v<R, double>) {
-      return _mm512_cvtepu8_epi64(_mm_cvtsi64_si128(static_cast<long long>(low)));
-    } else {
-#ifdef __AVX512VPOPCNTDQ__
-      const __m512i up_to = _mm512_set_epi32(0xFFFF, 0x7FFF, 0x3FFF, 0x1FFF, 0xFFF, 0x7FF, 0x3FF, 0x1FF, 0xFF, 0x7F,
-                                             0x3F, 0x1F, 0xF, 7, 3, 1);
-      return _mm512_popcnt_epi32(_mm512_and_si512(_mm512_set1_epi32(static_cast<int>(later)), up_to));
-#else
-      const std::uint64_t high =
-          std::bit_cast<std::uint64_t>(kCounts[later >> 8U]) + (low >> 56U) * 0x0101010101010101ULL;
-      return _mm512_cvtepu8_epi32(_mm_set_epi64x(static_cast<long long>(high), static_cast<long long>(low)));
-#endif
-    }
-  }
-
-  __m512i index_;
-#else
   using P = Permutation<R>;
   static constexpr auto kTable = detail::permutations<typename P::Entry, P::kLanes, P::kBytes>(detail::running_count);
   P permuted_;
-#endif
 };
+
+#endif
 
 }  // namespace HWY_NAMESPACE
 }  // namespace mote::lanes
