@@ -72,6 +72,18 @@ class MpiTeam final : public Team {
       });
     MPI_Waitall(as_int(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
   }
+  void complete(std::span<std::byte> column, std::span<const std::size_t> begins) override {
+    if (column.empty()) return;
+    MPI_Datatype const element = column.size() / begins.back() == 4 ? MPI_UINT32_T : MPI_UINT64_T;
+    counts_.resize(ranks_);
+    places_.resize(ranks_);
+    for (std::size_t r = 0; r < ranks_; ++r) {
+      counts_[r] = as_int(begins[r + 1] - begins[r]);
+      places_[r] = as_int(begins[r]);
+    }
+    MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, column.data(), counts_.data(), places_.data(), element,
+                   MPI_COMM_WORLD);
+  }
 
  private:
   template <class Byte, class Do>
@@ -85,6 +97,7 @@ class MpiTeam final : public Team {
   MPI_Datatype sum_type_{};
   MPI_Op sum_{};
   std::vector<MPI_Request> requests_;
+  std::vector<int> counts_, places_;  // of a column's parts
 };
 
 }  // namespace

@@ -25,7 +25,7 @@ class MpiSession {
 /// All processes of the job as a team.
 ///
 /// cost    largest, add, before, gather: O(log R) messages of a few bytes; exchange: a message for each parcel, or
-///         gigabyte of one
+///         gigabyte of one; complete: as MPI_Allgatherv
 std::unique_ptr<Team> make_mpi_team();
 
 }  // namespace mote

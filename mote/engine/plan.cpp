@@ -47,6 +47,12 @@ void check_ranks(const Plan& plan, const std::string& where) {
   require(plan.team->ranks() <= blocks, where, "--engine mpi",
           fmt::format("at most {} ranks for {} particles, a block of {} each", blocks, plan.particles, kBlock),
           fmt::format("{} ranks", plan.team->ranks()), "Start fewer ranks, or pass more --particles.");
+  if (plan.filter == FilterKind::kSisr) return;
+  require(plan.team->ranks() <= plan.chain.chains, where, "--engine mpi",
+          fmt::format("at most {} rank{} for --chains {}: a chain stays on one", plan.chain.chains,
+                      plan.chain.chains == 1 ? "" : "s", plan.chain.chains),
+          fmt::format("{} ranks", plan.team->ranks()),
+          fmt::format("Pass --chains {}, or start fewer ranks.", 16 * plan.team->ranks()));
 }
 
 }  // namespace
@@ -90,7 +96,7 @@ double bytes_needed(const Plan& plan, std::size_t dimensions) {
     return static_cast<double>(plan.particles + 2 * dimensions) * (static_cast<double>(dimensions) * 32 + 16);
   const double state = static_cast<double>(dimensions) * (plan.precision == Precision::kFloat ? 4 : 8);
   const auto n = static_cast<double>(plan.particles);
-  if (engine_of(plan) == Engine::kMpi) {
+  if (engine_of(plan) == Engine::kMpi && plan.filter == FilterKind::kSisr) {
     const double number = plan.precision == Precision::kFloat ? 4 : 8;
     // those that arrive and those that leave, besides
     return n / static_cast<double>(plan.team == nullptr ? 1 : plan.team->ranks()) * (4 * state + 3 * number) + 1e6;
@@ -107,7 +113,7 @@ double bytes_needed(const Plan& plan, std::size_t dimensions) {
   // `auto` may ask for as many as Q in each chain
   const double burn_in =
       static_cast<double>(plan.chain.chains) * (plan.chain.burn_in ? static_cast<double>(*plan.chain.burn_in) : draws);
-  if (engine_of(plan) == Engine::kSimd)
+  if (engine_of(plan) == Engine::kSimd || engine_of(plan) == Engine::kMpi)
     return n * state + (draws + burn_in) * (2 * state + (plan.precision == Precision::kFloat ? 16 : 32)) + 1e6;
   return n * (state + 28) + (draws + burn_in) * (state + 16);
 }
@@ -118,9 +124,10 @@ void check(const Plan& plan, const std::string& where) {
           fmt::format("--filter {} --proposal {}", name_of(plan.filter), plan.proposal),
           "Pass --engine reference, or leave it out.");
   require(plan.engine != Engine::kMpi || team_has(plan), where, "--engine mpi",
-          "--filter sisr with --resampler systematic and --selection-exponent 1",
-          fmt::format("--filter {} --resampler {} --selection-exponent {}", name_of(plan.filter),
-                      plan.selection.scheme->name, plan.selection.exponent),
+          "--filter sisr with --resampler systematic and --selection-exponent 1, or imh or auxiliary with --proposal "
+          "prior, without --burn-in auto and lookahead",
+          fmt::format("--filter {} --resampler {} --selection-exponent {} --proposal {}", name_of(plan.filter),
+                      plan.selection.scheme->name, plan.selection.exponent, plan.proposal),
           "Pass --engine fastest, or leave it out.");
   require(plan.particles >= 1 && plan.particles <= kMostParticles, where, "--particles",
           fmt::format("an integer from 1 to {}", kMostParticles), std::to_string(plan.particles),

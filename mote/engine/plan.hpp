@@ -45,10 +45,12 @@ inline bool simd_has(const Plan& plan) {
          plan.chain.parent_weights == ParentWeights::kUniform;
 }
 
-/// Whether a team can run the plan's filter: SISR whose selection needs no more than the sums of the blocks.
+/// Whether a team can run the plan's filter: SISR whose selection needs no more than the sums of the blocks, and the
+/// chains that the SIMD engine has.
 inline bool team_has(const Plan& plan) {
-  return plan.filter == FilterKind::kSisr && plan.selection.scheme == &systematic_scheme() &&
-         plan.selection.exponent == 1;
+  return plan.filter == FilterKind::kSisr
+             ? plan.selection.scheme == &systematic_scheme() && plan.selection.exponent == 1
+             : simd_has(plan);
 }
 
 /// The engine that runs a plan.

@@ -22,8 +22,10 @@ EstimateRow estimated(Step t, const StepReport& report, const Filter& filter, co
   EstimateRow row{t, {}, {}, report};
   for (std::size_t d = 0; d < request.states.size(); ++d)
     row.states.push_back(filter.moments(d, request.states[d].angle));
+  if (request.estimands.empty()) return row;
+  const WeightedSet set = filter.weighted();
   for (const Estimand& estimand : request.estimands)
-    row.functions.push_back(evaluate(estimand, request.sources[estimand.source], filter.weighted(), scratch));
+    row.functions.push_back(evaluate(estimand, request.sources[estimand.source], set, scratch));
   return row;
 }
 

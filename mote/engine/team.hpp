@@ -40,6 +40,10 @@ class Team {
   ///
   /// shape   for every parcel sent one of its length is awaited by its receiver
   virtual void exchange(std::span<const ParcelOut> out, std::span<const ParcelIn> in) = 0;
+  /// Completes a column of which rank r has the elements [begins[r], begins[r + 1]).
+  ///
+  /// shape   begins: (R + 1,), from 0 on; elements of 4 or 8 bytes
+  virtual void complete(std::span<std::byte> column, std::span<const std::size_t> begins) = 0;
 
  protected:
   Team() = default;

@@ -35,6 +35,7 @@ class ThreadTeams {
     std::span<ExactSum> sums;
     std::uint32_t number = 0;
     std::span<const ParcelOut> parcels;
+    std::span<const std::byte> column;
   };
 
   class Member final : public Team {
@@ -88,6 +89,17 @@ class ThreadTeams {
           while (sent[next].rank != rank_) ++next;
           std::copy_n(sent[next++].bytes.begin(), parcel.bytes.size(), parcel.bytes.begin());
         }
+      });
+    }
+    void complete(std::span<std::byte> column, std::span<const std::size_t> begins) override {
+      mine().column = column;
+      const std::size_t size = begins.back() == 0 ? 0 : column.size() / begins.back();
+      after_all([&] {
+        for (std::size_t r = 0; r < ranks(); ++r)
+          if (r != rank_)
+            std::copy_n(teams_->boards_[r].column.begin() + static_cast<std::ptrdiff_t>(begins[r] * size),
+                        (begins[r + 1] - begins[r]) * size,
+                        column.begin() + static_cast<std::ptrdiff_t>(begins[r] * size));
       });
     }
 

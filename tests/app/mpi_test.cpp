@@ -38,7 +38,8 @@ class Mpi : public ::testing::Test {
 
 TEST_F(Mpi, GivesTheBytesOfOneProcess) {
   ASSERT_EQ(scratch_.shell("mote simulate bearings --seed 3 --steps 30 --out d.csv --truth t.csv").code, 0);
-  for (const std::string options : {"-n 30001", "-n 8192 --precision float --ess-threshold 0.5 --proposal guided"}) {
+  for (const std::string options : {"-n 30001", "-n 8192 --precision float --ess-threshold 0.5 --proposal guided",
+                                    "-n 9000 --filter imh --improved", "-n 8192 --filter auxiliary --chains 40"}) {
     const std::string run = "run bearings --data d.csv --truth t.csv --out e.csv --summary s.json " + options;
     ASSERT_EQ(scratch_.shell("mote " + run + " --engine simd").code, 0);
     const std::string expected = scratch_.read("e.csv");
@@ -50,6 +51,25 @@ TEST_F(Mpi, GivesTheBytesOfOneProcess) {
       EXPECT_EQ(scratch_.read("e.csv"), expected) << ranks << " ranks, " << options;
       EXPECT_EQ(times(ended.out, "mpi engine"), 1) << "rank 0 alone speaks: " << ended.out;
       EXPECT_EQ(scratch_.files().size(), 4U) << "and writes";
+    }
+  }
+}
+
+TEST_F(Mpi, BringsAllParticlesTogetherWhereTheyAreAskedFor) {
+  ASSERT_EQ(scratch_.shell("mote simulate bearings --seed 3 --steps 5 --out d.csv").code, 0);
+  scratch_.write("d.csv", scratch_.read("d.csv") + "9,\n10,0.7\n");  // steps without observation, too
+  for (const std::string options : {"-n 3001 --ess-threshold 0.5", "-n 3001 --filter imh --chains 7 --burn-in 11"}) {
+    const std::string run =
+        "run bearings --data d.csv --out e.csv --dump-particles p.csv --estimate 'q0.9(x)' --estimate 'P(y>0.2)' " +
+        options;
+    ASSERT_EQ(scratch_.shell("mote " + run + " --engine simd").code, 0);
+    const std::string estimates = scratch_.read("e.csv");
+    const std::string particles = scratch_.read("p.csv");
+    for (const int ranks : {1, 3}) {
+      const Ended ended = on(ranks, run + " --engine mpi");
+      EXPECT_EQ(ended.code, 0) << ended.err;
+      EXPECT_EQ(scratch_.read("e.csv"), estimates) << ranks << " ranks, " << options;
+      EXPECT_EQ(scratch_.read("p.csv"), particles) << ranks << " ranks, " << options;
     }
   }
 }
@@ -75,10 +95,13 @@ TEST_F(Mpi, RefusesOnceForAllRanks) {
   const std::string run = "run local-level --data d.csv --out e.csv --engine mpi -n 9000 ";
   for (const Refusal& c : std::vector<Refusal>{
            {run + "-n 2048", 2, "at most 2 ranks for 2048 particles, a block of 1024 each, got 3 ranks. Start fewer"},
-           {run + "--filter imh", 2, "--engine mpi: expected --filter sisr with --resampler systematic"},
-           {run + "--resampler residual", 2, "--resampler residual --selection-exponent 1. Pass --engine fastest"},
-           {run + "--estimate 'P(level>0)'", 2, "--engine mpi: expected no --estimate beside it"},
-           {run + "--dump-particles p.csv", 2, "--engine mpi: expected no --dump-particles beside it"},
+           {run + "--filter imh", 2,
+            "--engine mpi: expected at most 1 rank for --chains 1: a chain stays on one, got 3"},
+           {run + "--filter imh --chains 9 --burn-in auto", 2, "--engine mpi: expected --filter sisr with --resampler"},
+           {run + "--resampler residual", 2,
+            "--resampler residual --selection-exponent 1 --proposal prior. Pass --engine fastest"},
+           {run + "--estimate 'P(nothing>0)'", 2, "--estimate"},
+           {run + "--dump-particles no/p.csv", 6, "no/p.csv: expected an output that can be written"},
            {run + "--checkpoint-every 3", 2, "--checkpoint-every: expected --checkpoint FILE beside it"},
            {run + "--checkpoint far.csv", 3, "far.csv: expected a checkpoint of mote run, got a file of another kind"},
            {run + "--proposal nope", 2, "--proposal: expected one of the model's proposals"},
@@ -145,20 +168,23 @@ TEST_F(Mpi, ALostRankEndsTheJob) {
 }
 
 // Any rank may be lost at any time, also while it hands its state to rank 0 or rank 0 writes it.
-TEST_F(Mpi, LostRanksChangeNoByte) {
+class LostRanks : public Mpi, public ::testing::WithParamInterface<std::string> {};
+
+TEST_P(LostRanks, ChangeNoByte) {
+  const std::string filter = "--chains 8 --filter " + GetParam();
   ASSERT_EQ(scratch_.shell("mote simulate bearings --seed 3 --steps 400 --out d.csv").code, 0);
-  ASSERT_EQ(scratch_.shell("mote run bearings --data d.csv -n 20000 --out whole.csv --engine simd").code, 0);
+  ASSERT_EQ(scratch_.shell("mote run bearings --data d.csv -n 20000 --out whole.csv --engine simd " + filter).code, 0);
   int code = -1;
   for (std::size_t attempt = 0; attempt < 6 && code != 0; ++attempt) {
     Job job(scratch_, 2,
             {"run", "bearings", "--data", "d.csv", "-n", "20000", "--out", "e.csv", "--engine", "mpi", "--checkpoint",
-             "c", "--checkpoint-every", "20"});
+             "c", "--checkpoint-every", "20", "--chains", "8", "--filter", GetParam()});
     if (attempt < 5) job.kill_rank(attempt % 2, std::chrono::milliseconds(400 + 97 * attempt));
     const auto end = job.end();
     code = end.code;
     EXPECT_TRUE(code == 0 || (attempt < 5 && end.err.find("exited on signal 9") != std::string::npos)) << end.err;
     if (attempt > 0 || !scratch_.files().contains("c")) continue;
-    const Ended other = on(3, "run bearings --data d.csv -n 20000 --out e.csv --engine mpi --checkpoint c");
+    const Ended other = on(3, "run bearings --data d.csv -n 20000 --out e.csv --engine mpi --checkpoint c " + filter);
     EXPECT_EQ(other.code, 2);
     EXPECT_EQ(times(other.err, "with ranks 3, got one with ranks 2"), 1) << other.err;
   }
@@ -166,6 +192,7 @@ TEST_F(Mpi, LostRanksChangeNoByte) {
   EXPECT_EQ(scratch_.read("e.csv"), scratch_.read("whole.csv"));
   EXPECT_EQ(scratch_.files().size(), 3U);
 }
+INSTANTIATE_TEST_SUITE_P(Of, LostRanks, ::testing::Values("sisr", "imh"), [](const auto& told) { return told.param; });
 
 }  // namespace
 }  // namespace mote::testing

@@ -62,14 +62,6 @@ struct Prepared {
   std::optional<CheckpointFile> checkpoint;
 };
 
-/// Refuses what a team cannot do: whatever needs all particles in one place.
-void check_for_team(const Arguments& arguments) {
-  for (const std::string option : {"--estimate", "--dump-particles"})
-    if (arguments.given(option))
-      throw Refusal(ExitCode::kWrongUse, {arguments.where(), "--engine mpi", "no " + option + " beside it", option,
-                                          "Pass --engine simd, or leave " + option + " out."});
-}
-
 void open_outputs(Prepared& run, const Arguments& arguments) {
   protect_inputs(run.outputs, arguments);
   run.outputs.reserve(arguments.text("--checkpoint"));
@@ -84,10 +76,7 @@ void prepare(Prepared& run, const Arguments& arguments, Team* team, bool writes)
   run.start = Clock::now();
   run.plan = plan_from(arguments);
   run.plan.team = team;
-  if (team != nullptr) {
-    check_for_team(arguments);
-    check(run.plan, arguments.where());
-  }
+  if (team != nullptr) check(run.plan, arguments.where());
   run.job = load_job(arguments.text("MODEL"),
                      arguments.required("--data", "a CSV file with the recording", "Pass --data obs.csv."),
                      arguments.text("--truth"), arguments.list("--set"), arguments.where());
@@ -101,6 +90,12 @@ void prepare(Prepared& run, const Arguments& arguments, Team* team, bool writes)
     run.job.notes.push_back(arguments.text("--checkpoint") + ": note: the run goes on from there.");
   for (const std::string& note : notes_on_unread(arguments, run.plan)) run.job.notes.push_back(note);
   for (const std::string& note : run.job.notes) fmt::print(stderr, "{}\n", printable(note));
+}
+
+void prepare_dump(Prepared& run) {
+  if (run.dump == nullptr) return;
+  run.dump->write(particles_header(run.request.states));
+  run.request.dump = [&run](Step t, const WeightedSet& set) { write_particles(*run.dump, t, set); };
 }
 
 /// Writes what was asked for.
@@ -138,10 +133,7 @@ ExitCode run_alone(const Arguments& arguments) {
   prepare(run, arguments, nullptr, true);
   run.request.stop = &stop;
   if (run.checkpoint) run.request.checkpoint = &*run.checkpoint;
-  if (run.dump != nullptr) {
-    run.dump->write(particles_header(run.request.states));
-    run.request.dump = [&run](Step t, const WeightedSet& set) { write_particles(*run.dump, t, set); };
-  }
+  prepare_dump(run);
   RunRecord record;
   {
     Progress progress("steps");
@@ -161,7 +153,11 @@ ExitCode run_alone(const Arguments& arguments) {
 ExitCode run_in_team(const Arguments& arguments, Team& team) {
   const bool writes = team.rank() == 0;
   Prepared run;
-  together(team, [&] { prepare(run, arguments, &team, writes); });
+  together(team, [&] {
+    prepare(run, arguments, &team, writes);
+    prepare_dump(run);
+  });
+  if (!writes && arguments.given("--dump-particles")) run.request.dump = [](Step, const WeightedSet&) {};
   RunRecord record;
   try {
     TeamCheckpoint checkpoint(team, run.checkpoint ? &*run.checkpoint : nullptr);

@@ -51,6 +51,7 @@ class BlockPass {
   [[gnu::flatten]] Moments circular_moments(const Particles<R>& x, std::size_t d, const WeightsOf& weights_of) const {
     std::array<ExactSum, 2> sums;  // of weighted cosines and sines
     for (std::size_t b = 0; b < blocks(); ++b) {
+      if (!std::isfinite(sums_.shift(b))) continue;
       const R* const angles = x.component(d).data() + b * kBlock;
       const R* const weights = weights_of(b);
       V cosines(0);
@@ -133,12 +134,15 @@ class BlockPass {
   std::size_t size_of(std::size_t block) const { return std::min(kBlock, particles() - block * kBlock); }
   /// Prepares for passes over another number of particles.
   void resize(std::size_t particles) {
-    if (particles != sums_.particles()) sums_ = BlockSums(particles, sums_.dimensions());
+    if (particles != sums_.particles()) sums_ = BlockSums(particles, sums_.dimensions(), team_, particles);
   }
   /// The weights that the next pass keeps are in units of 1, in every block.
   void forget_scales() {
     for (std::size_t b = 0; b < blocks(); ++b) sums_.set(b, {0, 0, 0});
   }
+  /// Blocks whose sums other ranks have, where all ranks have all particles; their scales, before weigh_again().
+  void leave_out(std::size_t block) { sums_.leave_out(block); }
+  void complete_scales() { sums_.complete_shifts(); }
   /// Writes or reads the scales of the weights that the next pass may keep.
   void keep(Archive& archive) { archive(sums_); }
   /// Adds up what the blocks of a pass have noted.

@@ -99,6 +99,13 @@ void BlockSums::add_aligned(const Totals& totals, const Term& term) const {
     aligned_[d] = exponents_[d] < kTooLarge ? exact_[d].value() * power_of_two(exponents_[d]) : kInfinity;
 }
 
+void BlockSums::complete_shifts() {
+  std::vector<double> shifts;
+  for (const WeightSums& block : weights_) shifts.push_back(block.shift);
+  team_->largest(shifts);
+  for (std::size_t b = 0; b < shifts.size(); ++b) weights_[b].shift = shifts[b];
+}
+
 void BlockSums::moments(const Totals& totals, std::span<Moments> all) const {
   add_aligned(totals, [](std::size_t, double w, const ComponentSums& c) { return c.first + c.centre * w; });
   for (std::size_t d = 0; d < dimensions_; ++d) all[d].mean = aligned_[d] / totals.weight;

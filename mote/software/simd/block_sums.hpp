@@ -68,6 +68,12 @@ class BlockSums {
   void set(std::size_t block, const WeightSums& sums) { weights_[block] = sums; }
   void set(std::size_t block, std::size_t d, const ComponentSums& sums) { components_[block * dimensions_ + d] = sums; }
   double shift(std::size_t block) const { return weights_[block].shift; }
+  /// The sums of a block are another rank's.
+  void leave_out(std::size_t block) { weights_[block] = {-kInfinity, 0, 0}; }
+  /// Takes over the scales of the blocks that were left out.
+  ///
+  /// shape   all ranks have all blocks
+  void complete_shifts();
 
   /// Writes or reads the sums of the weights, which say the blocks' scales.
   void keep(Archive& archive) { archive.fill(std::span(weights_)); }

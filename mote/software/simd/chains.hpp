@@ -27,18 +27,18 @@ class ChainGroup {
   static constexpr std::size_t kLanes = lanes::kWidth<R>;
   static constexpr std::size_t kColumnCount = kColumns;
 
-  /// Groups that the chains of a layout make up.
-  static std::size_t groups(const ChainLayout& layout) { return (layout.chains + kLanes - 1) / kLanes; }
+  /// Groups that so many chains make up.
+  static std::size_t groups(std::size_t chains) { return (chains + kLanes - 1) / kLanes; }
 
-  /// The group with chains kLanes g, kLanes g + 1, ...
-  ChainGroup(const ChainLayout& layout, std::size_t g, const R* logs, R* log_uniforms,
+  /// The group with the chains [first, end), of which it takes no more than it has lanes.
+  ChainGroup(const ChainLayout& layout, std::size_t first, std::size_t end, const R* logs, R* log_uniforms,
              const std::array<const R*, kColumns>& from, std::span<const Index> starts)
-      : logs_(logs), log_uniforms_(log_uniforms), from_(from), chains_(std::min(kLanes, layout.chains - g * kLanes)) {
+      : logs_(logs), log_uniforms_(log_uniforms), from_(from), chains_(std::min(kLanes, end - first)) {
     const Cut drawn(layout.draws, layout.chains);
     const Cut kept(layout.kept, layout.chains);
     std::array<std::size_t, kLanes> start{};
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const std::size_t k = g * kLanes + std::min(lane, chains_ - 1);  // lanes left over repeat the last chain
+      const std::size_t k = first + std::min(lane, chains_ - 1);  // lanes left over repeat the last chain
       burning_.part(lane, layout.draws + k * layout.burn_in, layout.draws + (k + 1) * layout.burn_in);
       keeping_.part(lane, drawn.begin(k), drawn.begin(k + 1));
       kept_[lane] = kept.begin(k);

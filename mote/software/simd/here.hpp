@@ -24,7 +24,7 @@ std::unique_ptr<Filter> vector_filter(const M& model, const Plan& plan, Estimate
   if constexpr (std::is_same_v<G, Prior>)
     if (plan.filter != FilterKind::kSisr)
       return std::make_unique<VectorMetropolisFilter<M, R>>(model, plan.particles, plan.seed, plan.chain,
-                                                            plan.on_collapse, plan.threads, estimates);
+                                                            plan.on_collapse, plan.threads, estimates, plan.team);
   return std::make_unique<VectorImportanceFilter<M, R, G>>(model, plan.particles, plan.seed, plan.selection,
                                                            plan.on_collapse, plan.threads, estimates, plan.team);
 }

@@ -18,9 +18,8 @@ inline namespace HWY_NAMESPACE {
 /// SISR on vectors: step by step ImportanceFilter with a WholeSelector, within rounding and the normal table's error.
 /// Weights are of type R, each block in a scale of its own.
 ///
-/// shape   N particles; R float or double; with a team, which needs a block a rank, systematic selection with exponent
-/// 1
-///         only, and weighted() is of this rank's particles
+/// shape   N particles; R float or double; with a team, which needs a block a rank, only systematic selection with
+///         exponent 1; weighted(), which all ranks then call, brings all particles to each of them
 /// error   none; a collapsed step is reported, see OnCollapse
 /// cost    O(N) a step; memory (2 D + 2) sizeof(R) N bytes, a column more with an ESS threshold below 1 or a selection
 ///         exponent; with systematic resampling at every step nothing is allocated after the first steps
@@ -32,6 +31,7 @@ class VectorImportanceFilter final : public Filter {
                          OnCollapse on_collapse, std::size_t threads, Estimates estimates = Estimates::kSpreads,
                          Team* team = nullptr)
       : seed_(seed),
+        team_(team),
         share_(particles, team),
         selection_(selection),
         on_collapse_(on_collapse),
@@ -90,13 +90,13 @@ class VectorImportanceFilter final : public Filter {
   }
 
   WeightedSet weighted() const override {
-    shown_.resize(now_.size());
+    shown_.resize(share_.all);
     for (std::size_t b = 0; b < pass_.blocks(); ++b) {
       const double scale = pass_.totals().scale_of(pass_.sums().shift(b));
       for (std::size_t i = b * kBlock; i < std::min((b + 1) * kBlock, now_.size()); ++i)
-        shown_[i] = static_cast<double>(weights_[i]) * scale;
+        shown_[share_.first + i] = static_cast<double>(weights_[i]) * scale;
     }
-    return {&now_, shown_, pass_.totals().weight};
+    return {migration_ ? &with_others() : &now_, shown_, pass_.totals().weight};
   }
 
   void keep(Archive& archive) override {
@@ -125,6 +125,19 @@ class VectorImportanceFilter final : public Filter {
 
     explicit Desk(std::size_t dimensions) : Pass::Desk(dimensions), stream(dimensions), spare(dimensions, 0) {}
   };
+
+  /// The particles of all ranks; their weights, too.
+  const Particles<R>& with_others() const {
+    if (!everybody_) everybody_.emplace(now_.dimensions(), share_.all);
+    const auto begins = begins_of_shares(share_.all, team_->ranks());
+    team_->complete(std::as_writable_bytes(std::span(shown_)), begins);
+    for (std::size_t d = 0; d < now_.dimensions(); ++d) {
+      const std::span<R> column = everybody_->component(d);
+      std::copy_n(now_.component(d).data(), share_.count, column.data() + share_.first);
+      team_->complete(std::as_writable_bytes(column), begins);
+    }
+    return *everybody_;
+  }
 
   std::size_t whole_blocks() const { return pass_.blocks() * kBlock; }
 
@@ -217,6 +230,7 @@ class VectorImportanceFilter final : public Filter {
   }
 
   std::uint64_t seed_;
+  Team* team_;
   Share share_;
   SelectionOptions selection_;
   OnCollapse on_collapse_;
@@ -233,6 +247,7 @@ class VectorImportanceFilter final : public Filter {
   bool level_ = true;  // all particles weigh the same before the next step
   double mass_ = 0;    // log sum of the carried log weights
   mutable std::vector<double> shown_;
+  mutable std::optional<Particles<R>> everybody_;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -3,11 +3,17 @@
 ///
 /// A step visits every block of 1024 proposals once: their parents and what decides on them are drawn while
 /// parents come from memory, then they are moved, weighed and summed. The chains then only compare.
+///
+/// Where a team shares the chains, a rank makes the proposals that its chains visit, and what all chains keep is told
+/// to all: any of it may be the parent of any proposal. A block of proposals that chains of two ranks visit is made by
+/// both, so that results do not depend on the number of ranks.
 
 #include <cstring>
+#include <numeric>
 
 #include "mote/base/permutation.hpp"
 #include "mote/engine/plan.hpp"
+#include "mote/software/share.hpp"
 #include "mote/software/simd/block_pass.hpp"
 #include "mote/software/simd/chains.hpp"
 #include "mote/software/threads.hpp"
@@ -21,7 +27,8 @@ inline namespace HWY_NAMESPACE {
 ///   parents k uniform, proposals x ~ g(. | x^k_{t-1}, y), Q + P N_b of them
 ///   w = p(y | x) p(x | x^k) / g(x | x^k, y);   estimates sum w f(x) / sum w;   evidence = mean w
 ///
-/// shape   N kept, Q >= N drawn, P chains; R float or double
+/// shape   N kept, Q >= N drawn, P chains; R float or double; with a team, which needs a chain and a block of N a rank,
+///         all ranks call weighted() if one does
 /// error   none; a collapsed step is reported, see OnCollapse
 /// cost    O(Q + P N_b) a step, a chain a lane: fewer chains than lanes leave lanes idle;
 ///         memory (2 D + 2) sizeof(R) (Q + P N_b) bytes
@@ -30,24 +37,37 @@ template <Model M, class R, class G = Prior>
 class VectorMetropolisFilter final : public Filter {
  public:
   VectorMetropolisFilter(M model, std::size_t particles, std::uint64_t seed, const ChainOptions& options,
-                         OnCollapse on_collapse, std::size_t threads, Estimates estimates = Estimates::kSpreads)
+                         OnCollapse on_collapse, std::size_t threads, Estimates estimates = Estimates::kSpreads,
+                         Team* team = nullptr)
       : seed_(seed),
+        team_(team),
         options_(options),
         on_collapse_(on_collapse),
         layout_{particles, options.draws == 0 ? particles : options.draws, options.chains, options.burn_in.value_or(0)},
+        share_(layout_, team),
+        blocks_of_set_(blocks_of(particles), share_.rank,
+                       [&](std::size_t r, std::size_t b) {
+                         const Share share(particles, share_.ranks, r);
+                         return share.first <= b * kBlock && b * kBlock < share.end();
+                       }),
+        blocks_of_proposals_(blocks_of(layout_.proposals()), share_.rank,
+                             [&](std::size_t r, std::size_t b) {
+                               return share_.visits(r, b * kBlock, std::min((b + 1) * kBlock, layout_.proposals()));
+                             }),
         crew_(threads),
         set_(model.states().size(), particles),
         proposals_(model.states().size(), layout_.proposals()),
-        pass_(std::move(model), particles, set_, estimates == Estimates::kSpreads) {
-    const std::size_t blocks = (layout_.proposals() + kBlock - 1) / kBlock;
-    log_weights_.resize(blocks * kBlock);
-    log_uniforms_.resize(blocks * kBlock);
-    for (std::size_t k = 0; k < crew_.shares(blocks); ++k) desks_.emplace_back(set_.dimensions());
+        pass_(std::move(model), particles, set_, estimates == Estimates::kSpreads, team, particles) {
+    log_weights_.resize(blocks_of(layout_.proposals()) * kBlock);
+    log_uniforms_.resize(log_weights_.size());
+    const std::size_t most = std::max(blocks_of_set_.made.size(), blocks_of_proposals_.made.size());
+    for (std::size_t k = 0; k < crew_.shares(most); ++k) desks_.emplace_back(set_.dimensions());
     if (kCarried == 0) number_proposals();
     pass<Source::kPrior, Weights::kEqual>(0, Purpose::kPrior, set_);
   }
 
   StepReport predict(Step t) override {
+    complete_what_was_read();
     pass<Source::kModel, Weights::kEqual>(t, Purpose::kMove, set_);
     StepReport report;
     report.ess = pass_.totals().ess();
@@ -55,6 +75,7 @@ class VectorMetropolisFilter final : public Filter {
   }
 
   StepReport update(Step t, Rows<double> rows) override {
+    complete_what_was_read();
     pass_.take(rows, set_);
     pass<Source::kProposal, Weights::kFresh>(t, Purpose::kMove, proposals_);
     if (pass_.totals().collapsed()) return recovered(t);
@@ -69,24 +90,25 @@ class VectorMetropolisFilter final : public Filter {
     std::vector<Index> starts;
     if (options_.start == ChainStart::kWeighted && !report.collapsed) starts = weighted_starts(t);
     const ChainReport chain = run_chains(starts);
-    report.acceptance =
-        chain.offered == 0 ? kNaN : static_cast<double>(chain.accepted) / static_cast<double>(chain.offered);
+    if (team_ != nullptr) complete(set_, share_.begins(layout_.kept));
+    const double offered = over_all(chain.offered);
+    report.acceptance = offered == 0 ? kNaN : over_all(chain.accepted) / offered;
     report.burn_in = layout_.burn_in;
     report.selected = true;
   }
 
   WeightedSet weighted() const override {
-    shown_.resize(weighted_->size());
-    for (std::size_t b = 0; b < pass_.blocks(); ++b) {
-      const double scale = pass_.totals().scale_of(pass_.sums().shift(b));
-      const R* const weights = weights_of(b);
-      for (std::size_t i = 0; i < pass_.size_of(b); ++i)
-        shown_[b * kBlock + i] = static_cast<double>(weights[i]) * scale;
-    }
+    weigh_all();
+    if (team_ != nullptr && weighted_ == &proposals_)
+      for (std::size_t d = 0; d < proposals_.dimensions(); ++d) complete_proposals(proposals_.component(d));
     return {weighted_, shown_, pass_.totals().weight};
   }
 
-  void keep(Archive& archive) override { archive(set_); }
+  /// A team's lowest rank keeps the set for all.
+  void keep(Archive& archive) override {
+    if (share_.rank == 0) archive(set_);
+    if (archive.reads()) complete_ = share_.ranks == 1;
+  }
 
   Moments moments(std::size_t d, bool angle) const override {
     if (angle) return pass_.circular_moments(*weighted_, d, [&](std::size_t b) { return weights_of(b); });
@@ -98,6 +120,33 @@ class VectorMetropolisFilter final : public Filter {
   using V = typename Pass::V;
   using Source = typename Pass::Source;
   using Weights = typename Pass::Weights;
+
+  /// The weights of all particles, whoever made them.
+  void weigh_all() const {
+    if (team_ != nullptr) {
+      if (weighted_ == &set_)
+        team_->complete(std::as_writable_bytes(std::span(log_weights_).first(layout_.kept)),
+                        begins_of_shares(layout_.kept, share_.ranks));
+      else
+        complete_proposals(log_weights_);
+      pass_.complete_scales();
+    }
+    shown_.resize(weighted_->size());
+    for (std::size_t b = 0; b < pass_.blocks(); ++b) {
+      const double scale = pass_.totals().scale_of(pass_.sums().shift(b));
+      const R* const weights = weights_of(b);
+      for (std::size_t i = 0; i < pass_.size_of(b); ++i)
+        shown_[b * kBlock + i] = static_cast<double>(weights[i]) * scale;
+    }
+  }
+  /// Every rank has what its own chains visit of a column of proposals, and gets the others'.
+  void complete_proposals(std::span<R> column) const {
+    const auto part = [&](std::size_t first, std::size_t n) {
+      team_->complete(std::as_writable_bytes(column.subspan(first, n)), share_.begins(n));
+    };
+    part(0, layout_.draws);
+    part(layout_.draws, layout_.chains * layout_.burn_in);
+  }
 
   /// Components that chains carry along; states of more, or of how many only the run knows, are gathered afterwards.
   static constexpr std::size_t kCarried = Pass::kD <= 4 ? Pass::kD : 0;
@@ -121,14 +170,34 @@ class VectorMetropolisFilter final : public Filter {
     return {seed_, static_cast<std::uint32_t>(t), purpose, static_cast<std::uint32_t>(b)};
   }
 
-  /// One pass over all blocks of `to`: parents, states, weights, sums.
+  /// Every rank has its part of each component, and gets the others'.
+  void complete(Particles<R>& x, std::span<const std::size_t> begins) const {
+    for (std::size_t d = 0; d < x.dimensions(); ++d) team_->complete(std::as_writable_bytes(x.component(d)), begins);
+  }
+  void complete_what_was_read() {
+    if (complete_) return;
+    std::vector<std::size_t> begins(share_.ranks + 1, layout_.kept);
+    begins[0] = 0;
+    complete(set_, begins);
+    complete_ = true;
+  }
+  /// The sum of a count over the ranks.
+  double over_all(std::size_t count) const {
+    if (team_ == nullptr) return static_cast<double>(count);
+    const auto counts = team_->gather(static_cast<std::uint32_t>(count));
+    return std::accumulate(counts.begin(), counts.end(), 0.0);
+  }
+
+  /// One pass over the blocks of `to` that are made here: parents, states, weights, sums.
   template <Source kSource, Weights kWeights>
   void pass(Step t, Purpose purpose, Particles<R>& to) {
     pass_.resize(to.size());
-    crew_.run(pass_.blocks(), [&](std::size_t share, std::size_t first, std::size_t last) {
+    const BlockShare& blocks = &to == &set_ ? blocks_of_set_ : blocks_of_proposals_;
+    crew_.run(blocks.made.size(), [&](std::size_t share, std::size_t first, std::size_t last) {
       const lanes::SubnormalsAreZero fast;
       Desk& desk = desks_[share];
-      for (std::size_t b = first; b < last; ++b) {
+      for (std::size_t k = first; k < last; ++k) {
+        const std::size_t b = blocks.made[k];
         for (std::size_t d = 0; d < to.dimensions(); ++d) desk.to[d] = to.component(d).data() + b * kBlock;
         if constexpr (kSource == Source::kProposal)
           fetch_parents(desk, t, b);
@@ -140,7 +209,9 @@ class VectorMetropolisFilter final : public Filter {
       }
     });
     weighted_ = &to;
+    for (const std::size_t b : blocks.left_out) pass_.leave_out(b);
     pass_.add_up();
+    if (team_ != nullptr && &to == &set_) complete(set_, begins_of_shares(layout_.kept, share_.ranks));
   }
 
   /// Puts the parents of the proposals of block b on the desk, and draws what the chains decide on these by.
@@ -191,15 +262,18 @@ class VectorMetropolisFilter final : public Filter {
 
   /// Runs the chains over the proposals; the set is what they keep.
   ChainReport run_chains(std::span<const Index> starts) {
-    const std::size_t groups = Chains::groups(layout_);
-    const std::size_t blocks = pass_.blocks();
+    const std::size_t chains = share_.end() - share_.first();
+    const std::size_t groups = Chains::groups(chains);
+    const std::size_t blocks = blocks_of_proposals_.made.size();
     const auto [from, to] = carried_columns();
     for (Desk& desk : desks_) desk.chains = {};
     // shared out by the blocks' number, which says how much work there is
     crew_.run(blocks, [&](std::size_t share, std::size_t first, std::size_t last) {
       const lanes::SubnormalsAreZero fast;
       for (std::size_t g = groups * first / blocks; g < groups * last / blocks; ++g) {
-        const ChainReport group = Chains(layout_, g, log_weights_.data(), log_uniforms_.data(), from, starts).run(to);
+        const ChainReport group = Chains(layout_, share_.first() + g * Chains::kLanes, share_.end(),
+                                         log_weights_.data(), log_uniforms_.data(), from, starts)
+                                      .run(to);
         desks_[share].chains.offered += group.offered;
         desks_[share].chains.accepted += group.accepted;
       }
@@ -234,24 +308,40 @@ class VectorMetropolisFilter final : public Filter {
     for (std::size_t j = 0; j < numbers_.size(); ++j) numbers_[j] = std::bit_cast<R>(static_cast<Number>(j));
   }
   void gather() {
-    crew_.run((layout_.kept + kBlock - 1) / kBlock, [&](std::size_t, std::size_t first, std::size_t last) {
+    const Cut kept(layout_.kept, layout_.chains);
+    const std::size_t begin = kept.begin(share_.first());
+    const std::size_t end = kept.begin(share_.end());
+    crew_.run(blocks_of(end - begin), [&](std::size_t, std::size_t first, std::size_t last) {
       for (std::size_t d = 0; d < set_.dimensions(); ++d)
-        for (std::size_t j = first * kBlock; j < std::min(last * kBlock, layout_.kept); ++j)
+        for (std::size_t j = begin + first * kBlock; j < std::min(begin + last * kBlock, end); ++j)
           set_.component(d)[j] = proposals_.component(d)[std::bit_cast<Number>(picks_[j])];
     });
   }
 
   /// As MetropolisFilter draws them: systematic by the weights of all proposals, dealt to the chains from a random one
   /// on.
-  std::vector<Index> weighted_starts(Step t) const {
+  std::vector<Index> weighted_starts(Step t) {
     const Draws draws{seed_, static_cast<std::uint32_t>(t)};
-    weighted();
+    weigh_all();
     std::vector<Index> starts(layout_.chains);
     systematic(shown_, draws, starts);
     auto block = draws.block(Purpose::kStart);
     const std::size_t shift = block.particle(0).index(starts.size());
     std::rotate(starts.begin(), starts.begin() + static_cast<std::ptrdiff_t>(shift), starts.end());
+    if (team_ != nullptr) fetch_starts(starts);
     return starts;
+  }
+  /// The states that chains start from, wherever they were made.
+  void fetch_starts(std::span<const Index> starts) {
+    const std::size_t dimensions = proposals_.dimensions();
+    std::vector<double> states(starts.size() * dimensions, -kInfinity);
+    for (std::size_t k = 0; k < starts.size(); ++k)
+      for (std::size_t d = 0; d < dimensions && share_.visits(share_.rank, starts[k]); ++d)
+        states[k * dimensions + d] = static_cast<double>(proposals_.component(d)[starts[k]]);
+    team_->largest(states);
+    for (std::size_t k = share_.first(); k < share_.end(); ++k)
+      for (std::size_t d = 0; d < dimensions; ++d)
+        proposals_.component(d)[starts[k]] = static_cast<R>(states[k * dimensions + d]);
   }
 
   /// The weights of block b, in its scale.
@@ -273,15 +363,21 @@ class VectorMetropolisFilter final : public Filter {
   }
 
   std::uint64_t seed_;
+  Team* team_;
   ChainOptions options_;
   OnCollapse on_collapse_;
   ChainLayout layout_;
+  ChainShare share_;
+  BlockShare blocks_of_set_, blocks_of_proposals_;
   Crew crew_;
-  Particles<R> set_, proposals_;                 // the unweighted set S_{t-1}; the proposals of this step
-  AlignedVector<R> log_weights_, log_uniforms_;  // of the proposals; the latter decide on them
-  AlignedVector<R> numbers_, picks_;             // where chains do not carry the states
-  Pass pass_;
+  Particles<R> set_;                      // the unweighted set S_{t-1}
+  mutable Particles<R> proposals_;        // of this step; what other ranks have is fetched when asked for
+  mutable AlignedVector<R> log_weights_;  // of the proposals
+  AlignedVector<R> log_uniforms_;         // what decides on them
+  AlignedVector<R> numbers_, picks_;      // where chains do not carry the states
+  mutable Pass pass_;
   std::vector<Desk> desks_;
+  bool complete_ = true;  // the set is on every rank as it is
   const Particles<R>* weighted_ = &set_;
   mutable std::vector<double> shown_;
   mutable AlignedVector<R> shown_block_;

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "mote/engine/checkpoint_laws.hpp"
+#include "mote/engine/thread_teams.hpp"
 #include "mote/filter/imh.hpp"
 #include "mote/model/bearings.hpp"
+#include "mote/model/linear_gaussian.hpp"
 #include "mote/model/local_level.hpp"
 #include "mote/model/ungm.hpp"
 
@@ -211,6 +213,64 @@ TEST(VectorMetropolis, ShowsWeightsThatAgreeWithItsMoments) {
         EXPECT_NEAR(filter.moments(d, angle).sd, expected.sd, angle ? 2e-4 : 1e-3 * expected.sd) << d;
       }
     filter.select(t, report);
+  }
+}
+
+/// Whether every rank of a team tells the same, bit by bit, as a filter that is alone.
+template <class R, class M>
+void expect_the_same_on_teams(const M& model, std::size_t particles, const ChainOptions& options,
+                              const std::vector<std::size_t>& teams, OnCollapse on_collapse = OnCollapse::kStop) {
+  const auto rows = drawn_rows(model, 11);
+  const std::size_t dimensions = model.states().size();
+  const auto made = [&](Team* team) {
+    return VectorMetropolisFilter<M, R>(model, particles, 3, options, on_collapse, 1, Estimates::kSpreads, team);
+  };
+  auto alone = made(nullptr);
+  const auto expected = run(alone, rows, dimensions);
+  for (const std::size_t ranks : teams) {
+    std::vector<std::vector<Told>> told(ranks);
+    ThreadTeams(ranks).run([&](Team& team) {
+      auto filter = made(&team);
+      told[team.rank()] = run(filter, rows, dimensions);
+    });
+    for (const auto& mine : told) EXPECT_EQ(difference(mine, expected, 1e-300), 0) << ranks << " ranks";
+  }
+}
+
+/// A model that no particle of most steps can explain.
+struct Doomed : LocalLevel {
+  template <class S>
+  S log_likelihood(Step t, const State<S>& x, const Row<S>& row) const {
+    return t % 3 == 0 ? S(-kInfinity) : LocalLevel::log_likelihood<S>(t, x, row);
+  }
+};
+
+LinearGaussian six_states() {
+  LinearGaussianParameters p;
+  p.F = 0.9 * Eigen::MatrixXd::Identity(6, 6);
+  p.Q = 0.5 * Eigen::MatrixXd::Identity(6, 6);
+  p.H = Eigen::MatrixXd::Identity(2, 6);
+  p.R = Eigen::MatrixXd::Identity(2, 2);
+  p.mean = Eigen::VectorXd::Zero(6);
+  p.covariance = Eigen::MatrixXd::Identity(6, 6);
+  p.state_names = {"a", "b", "c", "d", "e", "f"};
+  p.observation_names = {"y1", "y2"};
+  return LinearGaussian(p);
+}
+
+// Uneven shares of chains; blocks that chains of two ranks visit, and burn-in far from what is kept; states that chains
+// carry along (one, four) and that they do not (six).
+TEST(VectorMetropolis, TeamsChangeNoBit) {
+  for (const ChainStart start : {ChainStart::kFirst, ChainStart::kWeighted}) {
+    expect_the_same_on_teams<double>(Ungm<1>{}, 8 * kBlock, {.chains = 16, .start = start}, {1, 2, 3, 5, 8});
+    expect_the_same_on_teams<float>(Ungm<1>{}, 9 * kBlock + 77,
+                                    {.burn_in = 70, .chains = 37, .parents = mote::Parents::kPermuted, .start = start},
+                                    {2, 3, 7});
+    expect_the_same_on_teams<double>(Bearings{}, 5 * kBlock,
+                                     {.draws = 7 * kBlock + 5, .burn_in = 21, .chains = 5, .start = start}, {2, 5});
+    expect_the_same_on_teams<double>(six_states(), 3 * kBlock, {.chains = 10, .start = start}, {3});
+    for (const OnCollapse policy : {OnCollapse::kKeep, OnCollapse::kReset})
+      expect_the_same_on_teams<double>(Doomed{}, 4 * kBlock, {.chains = 7, .start = start}, {3}, policy);
   }
 }
 
