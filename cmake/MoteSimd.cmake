@@ -9,10 +9,11 @@ set(MOTE_ISA_SSE4 -march=x86-64-v2 -maes -mpclmul) # the least that Highway 1.0.
 set(MOTE_ISA_AVX2 -march=x86-64-v3 -maes -mpclmul)
 set(MOTE_ISA_AVX512 -march=x86-64-v4 -maes -mpclmul)
 if(MOTE_SANITIZE OR MOTE_COVERAGE OR MOTE_FUZZ)
-  set(MOTE_ISAS SSE4 AVX2) # one wide and one narrow: instrumented builds are slow enough
+  set(isas SSE4 AVX2) # one wide and one narrow: instrumented builds are slow enough
 else()
-  set(MOTE_ISAS SSE4 AVX2 AVX512)
+  set(isas SSE4 AVX2 AVX512)
 endif()
+set(MOTE_ISAS "${isas}" CACHE STRING "Instruction sets of the SIMD engine: fewer build faster, and run on fewer machines")
 
 # mote_simd(<target> NAME <name> SOURCES <files>): compiles the files for every instruction set and adds them to the target.
 # Each set becomes one object whose only global symbols are simd_filter(...): an inline function of another header that
@@ -50,8 +51,8 @@ endfunction()
 
 # The instruction sets that this machine runs, the narrowest first.
 file(READ /proc/cpuinfo processor)
-set(MOTE_ISAS_HERE SSE4)
-foreach(pair IN ITEMS "AVX2; avx2" "AVX512; avx512vl")
+set(MOTE_ISAS_HERE "")
+foreach(pair IN ITEMS "SSE4; sse4_2" "AVX2; avx2" "AVX512; avx512vl")
   list(GET pair 0 isa)
   list(GET pair 1 flag)
   if(isa IN_LIST MOTE_ISAS AND processor MATCHES "${flag}")

@@ -1,40 +1,9 @@
 // `mpirun -n R mote run --engine mpi`: the bytes of one process, refusals said once, lost ranks.
 
-#include <chrono>
-#include <thread>
-
-#include <gtest/gtest.h>
-
-#include "tests/app/program.hpp"
+#include "tests/app/mpi.hpp"
 
 namespace mote::testing {
 namespace {
-
-/// More ranks than cores, as root, in containers: what a test machine asks of Open MPI.
-class Mpi : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    for (const std::string name : {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM",
-                                   "OMPI_MCA_rmaps_base_oversubscribe", "OMPI_MCA_mpi_yield_when_idle"})
-      setenv(name.c_str(), "1", 1);
-    setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 1);
-  }
-
-  void SetUp() override {
-    if (!kMemoryIsMoteOwn) GTEST_SKIP() << "sanitizers find faults of Open MPI; teams of threads are tried under them";
-  }
-
-  Ended on(int ranks, const std::string& words) const {
-    return scratch_.shell("mpirun -n " + std::to_string(ranks) + " '" MOTE_PROGRAM "' " + words);
-  }
-  static int times(const std::string& text, const std::string& part) {
-    int count = 0;
-    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-    return count;
-  }
-
-  Scratch scratch_;
-};
 
 TEST_F(Mpi, GivesTheBytesOfOneProcess) {
   ASSERT_EQ(scratch_.shell("mote simulate bearings --seed 3 --steps 30 --out d.csv --truth t.csv").code, 0);
@@ -120,37 +89,6 @@ TEST_F(Mpi, RefusesOnceForAllRanks) {
   EXPECT_NE(compare.err.find("--engine mpi"), std::string::npos) << compare.err;
 }
 
-/// A job of mpirun that is watched.
-class Job {
- public:
-  Job(const Scratch& scratch, int ranks, const std::vector<std::string>& words)
-      : child_(scratch, line(ranks, words), "mpirun") {
-    const std::string id = std::to_string(child_.id());
-    for (int i = 0; i < 200 && ranks_.size() < static_cast<std::size_t>(ranks); ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-      std::ifstream children("/proc/" + id + "/task/" + id + "/children");
-      ranks_.assign(std::istream_iterator<pid_t>(children), {});
-    }
-  }
-  /// Kills a rank after some time, if it has not ended by then.
-  void kill_rank(std::size_t rank, std::chrono::milliseconds after) const {
-    std::this_thread::sleep_for(after);
-    if (rank < ranks_.size()) kill(ranks_[rank], SIGKILL);
-  }
-  std::size_t started() const { return ranks_.size(); }
-  Child::End end() { return child_.end(); }
-
- private:
-  static std::vector<std::string> line(int ranks, const std::vector<std::string>& words) {
-    std::vector<std::string> all{"-n", std::to_string(ranks), MOTE_PROGRAM};
-    all.insert(all.end(), words.begin(), words.end());
-    return all;
-  }
-
-  Child child_;
-  std::vector<pid_t> ranks_;
-};
-
 // Open MPI says which rank was lost, and ends the others.
 TEST_F(Mpi, ALostRankEndsTheJob) {
   std::string data = "t,y\n";
@@ -158,7 +96,7 @@ TEST_F(Mpi, ALostRankEndsTheJob) {
   scratch_.write("d.csv", data);
   Job job(scratch_, 3, {"run", "local-level", "--data", "d.csv", "--out", "e.csv", "-n", "100000", "--engine", "mpi"});
   ASSERT_EQ(job.started(), 3U);
-  job.kill_rank(1, std::chrono::milliseconds(1000));
+  job.signal_rank(1, SIGKILL, std::chrono::milliseconds(1000));
   const auto start = std::chrono::steady_clock::now();
   const auto end = job.end();
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
@@ -179,7 +117,7 @@ TEST_P(LostRanks, ChangeNoByte) {
     Job job(scratch_, 2,
             {"run", "bearings", "--data", "d.csv", "-n", "20000", "--out", "e.csv", "--engine", "mpi", "--checkpoint",
              "c", "--checkpoint-every", "20", "--chains", "8", "--filter", GetParam()});
-    if (attempt < 5) job.kill_rank(attempt % 2, std::chrono::milliseconds(400 + 97 * attempt));
+    if (attempt < 5) job.signal_rank(attempt % 2, SIGKILL, std::chrono::milliseconds(400 + 97 * attempt));
     const auto end = job.end();
     code = end.code;
     EXPECT_TRUE(code == 0 || (attempt < 5 && end.err.find("exited on signal 9") != std::string::npos)) << end.err;
@@ -192,6 +130,57 @@ TEST_P(LostRanks, ChangeNoByte) {
   EXPECT_EQ(scratch_.read("e.csv"), scratch_.read("whole.csv"));
   EXPECT_EQ(scratch_.files().size(), 3U);
 }
+// A rank that the system stops, or that gets a core half of the time only.
+TEST_F(Mpi, AStoppedRankDelaysTheOthersAndNoMore) {
+  ASSERT_EQ(scratch_.shell("mote simulate bearings --seed 3 --steps 300 --out d.csv").code, 0);
+  const std::string run = "run bearings --data d.csv -n 20000 --out ";
+  ASSERT_EQ(scratch_.shell("mote " + run + "whole.csv --engine simd").code, 0);
+  Job job(scratch_, 2, {"run", "bearings", "--data", "d.csv", "-n", "20000", "--out", "e.csv", "--engine", "mpi"});
+  ASSERT_EQ(job.started(), 2U);
+  using std::chrono::milliseconds;
+  job.signal_rank(1, SIGSTOP, milliseconds(300));
+  job.signal_rank(1, SIGCONT, milliseconds(700));
+  for (int k = 0; k < 10; ++k) {
+    job.signal_rank(0, SIGSTOP, milliseconds(20));
+    job.signal_rank(0, SIGCONT, milliseconds(20));
+  }
+  const auto end = job.end();
+  EXPECT_EQ(end.code, 0) << end.err;
+  EXPECT_EQ(scratch_.read("e.csv"), scratch_.read("whole.csv"));
+}
+
+TEST_F(Mpi, CtrlCLeavesACheckpoint) {
+  ASSERT_EQ(scratch_.shell("mote simulate bearings --seed 3 --steps 1000 --out d.csv").code, 0);
+  ASSERT_EQ(scratch_.shell("mote run bearings --data d.csv -n 20000 --out whole.csv --engine simd").code, 0);
+  const std::vector<std::string> words{"run",   "bearings", "--data",   "d.csv", "-n",           "20000",
+                                       "--out", "e.csv",    "--engine", "mpi",   "--checkpoint", "c"};
+  Job job(scratch_, 2, words);
+  ASSERT_EQ(job.started(), 2U);
+  job.signal(SIGINT, std::chrono::milliseconds(900));
+  const auto end = job.end();
+  EXPECT_NE(end.code, 0);
+  EXPECT_FALSE(scratch_.files().contains("e.csv"));
+  EXPECT_TRUE(scratch_.files().contains("c")) << end.err;
+  EXPECT_EQ(times(end.err, "goes on from c"), 1) << end.err;
+  EXPECT_EQ(Job(scratch_, 2, words).end().code, 0);
+  EXPECT_EQ(scratch_.read("e.csv"), scratch_.read("whole.csv"));
+}
+
+TEST_F(Mpi, AFullDiskLosesNothing) {
+  ASSERT_EQ(scratch_.shell("mote simulate bearings --seed 3 --steps 300 --out d.csv").code, 0);
+  const std::string run = "run bearings --data d.csv -n 3000 --out ";
+  ASSERT_EQ(scratch_.shell("mote " + run + "whole.csv --engine simd").code, 0);
+  const std::string kept = run + "e.csv --engine mpi --checkpoint c --checkpoint-every 1";
+  const std::string program = "mpirun -n 2 '" MOTE_PROGRAM "' " + kept;
+  const Ended full = scratch_.shell("ulimit -f 500; " + program);  // 250 kB; the states alone are 190
+  EXPECT_EQ(full.code, 6) << full.err;
+  EXPECT_EQ(times(full.err, "c: expected an output that can be written, got File too large"), 1) << full.err;
+  EXPECT_FALSE(scratch_.files().contains("e.csv"));
+  EXPECT_GT(scratch_.read("c").size(), 190000U) << "the last that fitted";
+  EXPECT_EQ(on(2, kept).code, 0);
+  EXPECT_EQ(scratch_.read("e.csv"), scratch_.read("whole.csv"));
+}
+
 INSTANTIATE_TEST_SUITE_P(Of, LostRanks, ::testing::Values("sisr", "imh"), [](const auto& told) { return told.param; });
 
 }  // namespace

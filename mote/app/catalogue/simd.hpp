@@ -22,14 +22,18 @@ std::unique_ptr<Filter> simd_filter(const M& model, const Plan& plan, const std:
 template <Model M>
 std::unique_ptr<Filter> simd_filter(const M& model, const Plan& plan, const std::string& where) {
   const auto isa = best_isa();
-  if (!isa)
-    throw Refusal(ExitCode::kWrongUse, {where, "--engine simd", "a processor with SSE4.2, AES and PCLMUL",
-                                        "one without them", "Pass --engine reference."});
 #ifdef MOTE_SIMD_AVX512
-  if (*isa >= Isa::kAvx512) return simd_filter<M, Isa::kAvx512>(model, plan, where);
+  if (isa >= Isa::kAvx512) return simd_filter<M, Isa::kAvx512>(model, plan, where);
 #endif
-  if (*isa >= Isa::kAvx2) return simd_filter<M, Isa::kAvx2>(model, plan, where);
-  return simd_filter<M, Isa::kSse4>(model, plan, where);
+#ifdef MOTE_SIMD_AVX2
+  if (isa >= Isa::kAvx2) return simd_filter<M, Isa::kAvx2>(model, plan, where);
+#endif
+#ifdef MOTE_SIMD_SSE4
+  if (isa >= Isa::kSse4) return simd_filter<M, Isa::kSse4>(model, plan, where);
+#endif
+  throw Refusal(ExitCode::kWrongUse,
+                {where, "--engine simd", "a processor with SSE4.2, AES and PCLMUL, or what mote was built for",
+                 "one without them", "Pass --engine reference."});
 }
 
 }  // namespace mote

@@ -36,15 +36,7 @@ std::string summed_up(const Recording& recording) {
 
 std::string instruction_set(const Plan& plan) {
   if (engine_of(plan) == Engine::kReference) return "any";
-  switch (best_isa().value_or(Isa::kSse4)) {
-    case Isa::kSse4:
-      return "SSE4";
-    case Isa::kAvx2:
-      return "AVX2";
-    case Isa::kAvx512:
-      return "AVX-512";
-  }
-  return "";
+  return std::string(name_of(best_isa().value_or(Isa::kSse4)));
 }
 
 RunFacts facts_of(const Arguments& arguments, const Plan& plan, const Job& job) {

@@ -98,6 +98,16 @@ void prepare_dump(Prepared& run) {
   run.request.dump = [&run](Step t, const WeightedSet& set) { write_particles(*run.dump, t, set); };
 }
 
+/// A run that was told to stop ends here.
+void check_whole(const Prepared& run, const RunRecord& record, const Arguments& arguments) {
+  if (record.interrupted)
+    throw Refusal(ExitCode::kInterrupted,
+                  fmt::format("{}: interrupted after {} of {} steps; {}.", arguments.where(), record.rows.size(),
+                              run.job.recording.steps.size(),
+                              run.checkpoint ? "the same command goes on from " + arguments.text("--checkpoint")
+                                             : "no file was written"));
+}
+
 /// Writes what was asked for.
 void publish(Prepared& run, RunRecord& record) {
   record.wall_seconds = std::chrono::duration<double>(Clock::now() - run.start).count();
@@ -140,12 +150,7 @@ ExitCode run_alone(const Arguments& arguments) {
     run.request.progress = [&](std::size_t done, std::size_t all) { progress.update(done, all); };
     record = run_job(run.job, run.plan, run.request, arguments.where());
   }
-  if (record.interrupted)
-    throw Refusal(ExitCode::kInterrupted,
-                  fmt::format("{}: interrupted after {} of {} steps; {}.", arguments.where(), record.rows.size(),
-                              run.job.recording.steps.size(),
-                              run.checkpoint ? "the same command goes on from " + arguments.text("--checkpoint")
-                                             : "no file was written"));
+  check_whole(run, record, arguments);
   publish(run, record);
   return ExitCode::kDone;
 }
@@ -160,11 +165,18 @@ ExitCode run_in_team(const Arguments& arguments, Team& team) {
   if (!writes && arguments.given("--dump-particles")) run.request.dump = [](Step, const WeightedSet&) {};
   RunRecord record;
   try {
-    TeamCheckpoint checkpoint(team, run.checkpoint ? &*run.checkpoint : nullptr);
-    if (arguments.given("--checkpoint")) run.request.checkpoint = &checkpoint;
+    const bool kept = arguments.given("--checkpoint");
+    static const std::atomic<bool> kNever{false};
+    // without a checkpoint a signal just ends the process
+    TeamCheckpoint checkpoint(team, run.checkpoint ? &*run.checkpoint : nullptr, kept ? stop_flag() : kNever);
+    if (kept) {
+      run.request.checkpoint = &checkpoint;
+      run.request.stop = &checkpoint.stop();
+    }
     // a proposal that the model does not have is refused, and a step collapses, on all ranks alike
     const auto filter = run.job.model->filter(run.plan, arguments.where());
     record = run_filter(*filter, run.job, run.plan, run.request);
+    check_whole(run, record, arguments);
   } catch (const Refusal& refusal) {
     if (refusal.code() == ExitCode::kCannotWrite || refusal.code() == ExitCode::kBadData) throw;  // a checkpoint's
     throw CommonRefusal(refusal, writes);

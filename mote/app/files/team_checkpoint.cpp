@@ -56,7 +56,11 @@ bool TeamCheckpoint::resume(const KeepRun& run) {
 }
 
 void TeamCheckpoint::step_done(const KeepRun& run) {
-  if (told(file_ != nullptr && file_->due())) write(run);
+  constexpr std::uint32_t kDue = 1;
+  constexpr std::uint32_t kStop = 2;
+  const auto all = team_->gather((file_ != nullptr && file_->due() ? kDue : 0U) | (signalled_->load() ? kStop : 0U));
+  stop_ = std::any_of(all.begin(), all.end(), [](std::uint32_t one) { return (one & kStop) != 0; });
+  if (!stop_ && (all[0] & kDue) != 0) write(run);
 }
 
 void TeamCheckpoint::write(const KeepRun& run) {

@@ -2,6 +2,18 @@
 
 namespace mote {
 
+std::string_view name_of(Isa isa) {
+  switch (isa) {
+    case Isa::kSse4:
+      return "SSE4";
+    case Isa::kAvx2:
+      return "AVX2";
+    case Isa::kAvx512:
+      return "AVX-512";
+  }
+  return "";
+}
+
 std::optional<Isa> best_isa() {
   const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2") &&
                     __builtin_cpu_supports("f16c") && __builtin_cpu_supports("aes") && __builtin_cpu_supports("pclmul");
