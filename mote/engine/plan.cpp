@@ -42,6 +42,19 @@ void check_groups(const Plan& plan, const std::string& where) {
           std::to_string(g.exchange_count), "Pass --exchange-count 1, or fewer groups.");
 }
 
+void check_stages(const Plan& plan, const std::string& where) {
+  require(plan.engine != Engine::kPipeline || pipeline_has(plan), where, "--engine pipeline",
+          "--filter sisr, imh or auxiliary", fmt::format("--filter {}", name_of(plan.filter)),
+          "Pass --engine reference, or leave it out.");
+  for (const auto& [option, workers] : {std::pair{"--proposers", plan.proposers}, {"--weighers", plan.weighers}}) {
+    require(plan.engine == Engine::kPipeline || workers == 0, where, option, "--engine pipeline, whose stages it mans",
+            fmt::format("--engine {}", name_of(engine_of(plan))),
+            fmt::format("Pass --engine pipeline {} {}.", option, workers));
+    require(workers <= kMostStageWorkers, where, option, fmt::format("an integer from 1 to {}", kMostStageWorkers),
+            std::to_string(workers), fmt::format("Pass {} 1.", option));
+  }
+}
+
 void check_ranks(const Plan& plan, const std::string& where) {
   const std::size_t blocks = (plan.particles + kBlock - 1) / kBlock;
   require(plan.team->ranks() <= blocks, where, "--engine mpi",
@@ -87,6 +100,8 @@ std::string_view name_of(Engine engine) {
       return "simd";
     case Engine::kMpi:
       return "mpi";
+    case Engine::kPipeline:
+      return "pipeline";
   }
   return "";
 }
@@ -115,7 +130,7 @@ double bytes_needed(const Plan& plan, std::size_t dimensions) {
       static_cast<double>(plan.chain.chains) * (plan.chain.burn_in ? static_cast<double>(*plan.chain.burn_in) : draws);
   if (engine_of(plan) == Engine::kSimd || engine_of(plan) == Engine::kMpi)
     return n * state + (draws + burn_in) * (2 * state + (plan.precision == Precision::kFloat ? 16 : 32)) + 1e6;
-  return n * (state + 28) + (draws + burn_in) * (state + 16);
+  return n * (state + 28) + (draws + burn_in) * (state + 28);
 }
 
 void check(const Plan& plan, const std::string& where) {
@@ -129,6 +144,7 @@ void check(const Plan& plan, const std::string& where) {
           fmt::format("--filter {} --resampler {} --selection-exponent {} --proposal {}", name_of(plan.filter),
                       plan.selection.scheme->name, plan.selection.exponent, plan.proposal),
           "Pass --engine fastest, or leave it out.");
+  check_stages(plan, where);
   require(plan.particles >= 1 && plan.particles <= kMostParticles, where, "--particles",
           fmt::format("an integer from 1 to {}", kMostParticles), std::to_string(plan.particles),
           "Pass --particles 1000.");

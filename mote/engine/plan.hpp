@@ -16,9 +16,13 @@ enum class Engine {
   kReference,  ///< slow and obvious: the referee
   kSimd,       ///< vectors of particles
   kMpi,        ///< the same on a team of processes
+  kPipeline,   ///< the reference's filters, the stages of a step side by side
 };
 
 class Team;
+
+/// Proposers, or weighers, that a plan may ask for.
+inline constexpr std::size_t kMostStageWorkers = 64;
 
 /// What to run. Defaults are the papers' filters.
 struct Plan {
@@ -33,7 +37,10 @@ struct Plan {
   OnCollapse on_collapse = OnCollapse::kStop;
   Engine engine = Engine::kFastest;
   std::size_t threads = 1;  ///< results never depend on them
-  Team* team = nullptr;     ///< whom the particles are shared with, by kMpi; results do not depend on it, either
+  std::size_t proposers =
+      0;  ///< Rp, blocks that kPipeline proposes at once; 0 = not told: one. Results never depend on it
+  std::size_t weighers = 0;  ///< Rw, blocks that it weighs at once; likewise
+  Team* team = nullptr;      ///< whom the particles are shared with, by kMpi; results do not depend on it, either
 };
 
 /// Whether the SIMD engine has the plan's filter: SISR, and chains whose proposal is the prior, with a fixed burn-in
@@ -51,6 +58,11 @@ inline bool team_has(const Plan& plan) {
   return plan.filter == FilterKind::kSisr
              ? plan.selection.scheme == &systematic_scheme() && plan.selection.exponent == 1
              : simd_has(plan);
+}
+
+/// Whether the pipeline engine has the plan's filter.
+inline bool pipeline_has(const Plan& plan) {
+  return plan.filter == FilterKind::kSisr || plan.filter == FilterKind::kImh || plan.filter == FilterKind::kAuxiliary;
 }
 
 /// The engine that runs a plan.

@@ -61,6 +61,7 @@ class Journey {
     }
     record.interrupted = record.rows.size() < recording.steps.size();
     record.predicted_steps = static_cast<std::size_t>(state_.t);
+    if (const auto* staged = dynamic_cast<const Staged*>(&filter_)) record.stages = staged->stages();
     if (record.interrupted && request_.checkpoint != nullptr) request_.checkpoint->stopped(keeper());
     return std::move(record);
   }

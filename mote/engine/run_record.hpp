@@ -7,6 +7,7 @@
 
 #include "mote/engine/plan.hpp"
 #include "mote/engine/recording.hpp"
+#include "mote/engine/stage_record.hpp"
 #include "mote/filter/estimate.hpp"
 #include "mote/filter/filter.hpp"
 
@@ -27,10 +28,11 @@ struct RunRecord {
   std::vector<Quantity> states;
   std::vector<std::string> function_labels;
   std::vector<EstimateRow> rows;
-  std::size_t predicted_steps = 0;  ///< steps of the model, gaps included
-  double step_seconds = 0;          ///< time in stepping and estimating
-  double wall_seconds = 0;          ///< time of the whole run, reading included, before the files are written
-  bool interrupted = false;         ///< ended before the data by a signal
+  std::size_t predicted_steps = 0;    ///< steps of the model, gaps included
+  double step_seconds = 0;            ///< time in stepping and estimating
+  double wall_seconds = 0;            ///< time of the whole run, reading included, before the files are written
+  std::optional<StageRecord> stages;  ///< of a filter that is run by stages: what they did since the run went on
+  bool interrupted = false;           ///< ended before the data by a signal
 };
 
 /// Mean, median and root mean square of the distance between estimated and true position.

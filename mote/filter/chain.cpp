@@ -5,60 +5,64 @@
 #include "mote/base/numbers.hpp"
 
 namespace mote {
-namespace {
 
-/// One chain in motion.
-class Chain {
- public:
-  Chain(std::span<const double> log_weights, std::span<const double> log_uniforms, ChainReport& report)
-      : log_weights_(log_weights), log_uniforms_(log_uniforms), report_(report) {}
+Chains::Chains(const ChainLayout& layout, std::span<const double> log_weights, std::span<const double> log_uniforms,
+               std::span<const Index> starts, std::span<Index> picks)
+    : layout_(layout),
+      drawn_(layout.draws, layout.chains),
+      kept_by_(layout.kept, layout.chains),
+      log_weights_(log_weights),
+      log_uniforms_(log_uniforms),
+      picks_(picks),
+      chains_(layout.chains) {
+  for (std::size_t k = 0; k < starts.size(); ++k) chains_[k].at = chains_[k].start = starts[k];
+}
 
-  void start(std::size_t proposal) {
-    at_ = start_ = proposal;
-    started_ = true;
+std::size_t Chains::visit(Chain& chain, std::size_t proposal) const {
+  if (chain.start == Chain::kNowhere) chain.at = chain.start = proposal;
+  if (proposal == chain.start) return chain.at;
+  ++chain.report.offered;
+  // a current state of weight zero gives way to any other of positive weight
+  const bool accepted = log_weights_[chain.at] == -kInfinity
+                            ? log_weights_[proposal] > -kInfinity
+                            : log_uniforms_[proposal] < log_weights_[proposal] - log_weights_[chain.at];
+  if (accepted) {
+    ++chain.report.accepted;
+    chain.at = proposal;
   }
-  std::size_t visit(std::size_t proposal) {
-    if (!started_) start(proposal);
-    if (proposal == start_) return at_;
-    ++report_.offered;
-    // a current state of weight zero gives way to any other of positive weight
-    const bool accepted = log_weights_[at_] == -kInfinity
-                              ? log_weights_[proposal] > -kInfinity
-                              : log_uniforms_[proposal] < log_weights_[proposal] - log_weights_[at_];
-    if (accepted) {
-      ++report_.accepted;
-      at_ = proposal;
+  return chain.at;
+}
+
+void Chains::take(std::size_t first, std::size_t last) {
+  std::size_t j = first;
+  for (; j < std::min(last, layout_.draws);) {
+    const std::size_t k = drawn_.part_of(j);
+    const std::size_t stop = drawn_.begin(k + 1);
+    const std::size_t kept_first = kept_by_.begin(k);
+    const std::size_t kept = kept_by_.begin(k + 1) - kept_first;
+    for (const std::size_t end = std::min(stop, last); j < end; ++j) {
+      const std::size_t at = visit(chains_[k], j);
+      if (j + kept >= stop) picks_[kept_first + (j + kept - stop)] = static_cast<Index>(at);
     }
-    return at_;
   }
+  for (; j < last; ++j) visit(chains_[(j - layout_.draws) / layout_.burn_in], j);
+}
 
- private:
-  std::span<const double> log_weights_, log_uniforms_;
-  ChainReport& report_;
-  std::size_t at_ = 0, start_ = 0;
-  bool started_ = false;
-};
-
-}  // namespace
+ChainReport Chains::report() const {
+  ChainReport all;
+  for (const Chain& chain : chains_) {
+    all.offered += chain.report.offered;
+    all.accepted += chain.report.accepted;
+  }
+  return all;
+}
 
 ChainReport run_chains(const ChainLayout& layout, std::span<const double> log_weights,
                        std::span<const double> log_uniforms, std::span<const Index> starts, std::span<Index> picks) {
-  ChainReport report;
-  const Cut drawn(layout.draws, layout.chains);
-  const Cut kept_by(layout.kept, layout.chains);
-  for (std::size_t k = 0; k < layout.chains; ++k) {
-    Chain chain(log_weights, log_uniforms, report);
-    if (!starts.empty()) chain.start(starts[k]);
-    for (std::size_t b = 0; b < layout.burn_in; ++b) chain.visit(layout.draws + k * layout.burn_in + b);
-    const std::size_t stop = drawn.begin(k + 1);
-    const std::size_t kept_first = kept_by.begin(k);
-    const std::size_t kept = kept_by.begin(k + 1) - kept_first;
-    for (std::size_t j = drawn.begin(k); j < stop; ++j) {
-      const std::size_t at = chain.visit(j);
-      if (j + kept >= stop) picks[kept_first + (j + kept - stop)] = static_cast<Index>(at);
-    }
-  }
-  return report;
+  Chains chains(layout, log_weights, log_uniforms, starts, picks);
+  chains.take(layout.draws, layout.proposals());
+  chains.take(0, layout.draws);
+  return chains.report();
 }
 
 std::size_t burn_in_for(double mean_weight, double largest_weight, double distance, std::size_t most) {

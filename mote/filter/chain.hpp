@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "mote/filter/options.hpp"
 #include "mote/filter/particles.hpp"
@@ -27,6 +28,11 @@ struct Cut {
 
   Cut(std::size_t n, std::size_t parts) : length(n / parts), longer(n % parts) {}
   std::size_t begin(std::size_t k) const { return k * length + std::min(k, longer); }
+  /// The part that i < n belongs to.
+  std::size_t part_of(std::size_t i) const {
+    const std::size_t in_longer = longer * (length + 1);
+    return i < in_longer ? i / (length + 1) : longer + (i - in_longer) / length;
+  }
 };
 
 /// Counts of a run of chains.
@@ -34,7 +40,7 @@ struct ChainReport {
   std::size_t offered = 0, accepted = 0;
 };
 
-/// Runs the chains and writes which proposals make up the unweighted set: picks[j] for j < N.
+/// Chains in motion, which write the proposals that make up the unweighted set: picks[j] for j < N.
 ///
 ///   accept proposal x^ after x with probability min(w(x^) / w(x), 1):   log u < log w(x^) - log w(x)
 ///
@@ -42,8 +48,36 @@ struct ChainReport {
 ///         starts: (P,) proposal that each chain starts from, or empty: the first that it visits. A chain passes its
 ///         own start over, which was drawn by its weight and is no independent proposal: offered again it would bias
 ///         what is kept.
-/// cost    O(Q + P N_b), one comparison a proposal
+/// cost    O(Q + P N_b) in all, one comparison a proposal
 /// source  docs/filters.md (F13), (F14); IMH-HW (11), (16), (17)
+class Chains {
+ public:
+  Chains(const ChainLayout& layout, std::span<const double> log_weights, std::span<const double> log_uniforms,
+         std::span<const Index> starts, std::span<Index> picks);
+
+  /// Has the proposals [first, last) visited by the chains that they belong to. Those of one chain come in its order:
+  /// burning in first, then in growing order. Proposals of different chains may be taken side by side.
+  void take(std::size_t first, std::size_t last);
+  /// Counts so far.
+  ChainReport report() const;
+
+ private:
+  /// One chain: where it is, where it started.
+  struct Chain {
+    static constexpr std::size_t kNowhere = ~std::size_t{0};
+    std::size_t at = kNowhere, start = kNowhere;
+    ChainReport report;
+  };
+  std::size_t visit(Chain& chain, std::size_t proposal) const;
+
+  ChainLayout layout_;
+  Cut drawn_, kept_by_;
+  std::span<const double> log_weights_, log_uniforms_;
+  std::span<Index> picks_;
+  std::vector<Chain> chains_;
+};
+
+/// Runs chains over all their proposals.
 ChainReport run_chains(const ChainLayout& layout, std::span<const double> log_weights,
                        std::span<const double> log_uniforms, std::span<const Index> starts, std::span<Index> picks);
 

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "mote/base/permutation.hpp"
 #include "mote/base/scan.hpp"
 #include "mote/filter/chain.hpp"
+#include "mote/filter/stages.hpp"
 #include "mote/filter/still.hpp"
 #include "mote/filter/weigh.hpp"
 
@@ -21,10 +23,12 @@ namespace mote {
 struct MixtureWeight {
   template <class R, Model M, class G>
   static double log_ratio(const M& model, const G& proposal, Step t, const StateOf<M, R>& x, std::size_t,
-                          const Particles<R>& parents, Rows<R> y, std::span<double> scratch) {
+                          const Particles<R>& parents, Rows<R> y) {
     if constexpr (std::is_same_v<G, Prior>) {
       return 0;
     } else {
+      thread_local std::vector<double> scratch;
+      scratch.resize(parents.size());
       auto before = blank_state<R>(model);
       const auto log_mixture = [&](auto&& density) {
         for (std::size_t i = 0; i < parents.size(); ++i) {
@@ -48,7 +52,7 @@ struct MixtureWeight {
 struct PairWeight {
   template <class R, Model M, class G>
   static double log_ratio(const M& model, const G& proposal, Step t, const StateOf<M, R>& x, std::size_t k,
-                          const Particles<R>& parents, Rows<R> y, std::span<double>) {
+                          const Particles<R>& parents, Rows<R> y) {
     auto before = blank_state<R>(model);
     parents.read(k, before);
     return log_importance<R>(model, proposal, t, x, before, y);
@@ -62,18 +66,24 @@ struct PairWeight {
 ///   estimates sum w f(x) / sum w over all proposals; evidence = mean w
 ///   the chains' last N states are the unweighted set
 ///
-/// shape   N kept, Q >= N drawn, P chains
-/// cost    O(Q + P N_b) a step (times N for MixtureWeight with g not p); memory about (2 D + 3) 8 (Q + P N_b) bytes
+/// The chains visit proposals as these are weighed. They wait for all weights where they start by them
+/// (ChainStart::kWeighted), or burn in as long as the weights say.
+///
+/// shape   N kept, Q >= N drawn, P chains; `runner`, who runs the stages of a step, outlives the filter
+/// cost    O(Q + P N_b) a step (times N for MixtureWeight with g not p); memory about (2 D + 4) 8 (Q + P N_b) bytes
 /// source  docs/filters.md (F11) to (F20), (F27); IMH-HW section 4, IMH-OPT section IV
 template <Model M, class R, class G, class Weight>
 class MetropolisFilter final : public Filter {
  public:
-  MetropolisFilter(M model, std::size_t particles, std::uint64_t seed, ChainOptions options, OnCollapse on_collapse)
+  MetropolisFilter(M model, std::size_t particles, std::uint64_t seed, ChainOptions options, OnCollapse on_collapse,
+                   StageRunner& runner = stage_by_stage())
       : model_(std::move(model)),
         proposal_(make_proposal<G>(model_)),
         seed_(seed),
         options_(options),
         on_collapse_(on_collapse),
+        runner_(&runner),
+        proposers_(runner.proposers() * runner.lines()),
         layout_{particles, options.draws == 0 ? particles : options.draws, options.chains, options.burn_in.value_or(0)},
         set_(model_.states().size(), particles),
         proposals_(model_.states().size(), 0),
@@ -82,7 +92,15 @@ class MetropolisFilter final : public Filter {
   }
 
   StepReport predict(Step t) override {
-    move(model_, t, set_, draws(t));
+    runner_->run({{0, set_.size()},
+                  {{{0, set_.size()}}},
+                  [&](std::size_t proposer, std::size_t line, Stretch stretch) {
+                    Cursors& at = cursors(proposer, line);
+                    at.moves.go(draws(t), Purpose::kMove, stretch.first, words_of<R>(model_, Prior{}, t, some(), {}));
+                    move(model_, t, set_, at.moves, stretch.first, stretch.last);
+                  },
+                  {},
+                  {}});
     return unweighted(set_);
   }
 
@@ -94,18 +112,10 @@ class MetropolisFilter final : public Filter {
 
   void select(Step t, StepReport& report) override {
     if (weighted_ == &set_) return;
-    std::vector<Index> starts;
-    if (options_.start == ChainStart::kWeighted && !report.collapsed) {
-      starts = weighted_starts(t);
-    }
-    // the linear weights have served: their place takes the log uniforms
-    draws(t).template for_each<R>(Purpose::kAccept, 0, weights_.size(), [&](std::size_t j, auto& draw) {
-      weights_[j] = std::log(static_cast<double>(draw.uniform()));
-    });
-    const ChainReport chain = run_chains(layout_, log_weights_, weights_, starts, picks_);
+    if (!chosen_) choose(t, report.collapsed);
     set_.gather(proposals_, picks_);
     report.acceptance =
-        chain.offered == 0 ? kNaN : static_cast<double>(chain.accepted) / static_cast<double>(chain.offered);
+        chosen_->offered == 0 ? kNaN : static_cast<double>(chosen_->accepted) / static_cast<double>(chosen_->offered);
     report.burn_in = layout_.burn_in;
     report.selected = true;
   }
@@ -130,64 +140,118 @@ class MetropolisFilter final : public Filter {
     return starts;
   }
 
+  /// Whether chains can visit proposals before all are weighed.
+  bool chains_flow() const { return options_.start == ChainStart::kFirst && options_.burn_in; }
+
   void propose_all(Step t, Rows<R> y) {
     layout_.burn_in = options_.burn_in.value_or(0);
     prepare_parents(t, y);
-    propose_range(t, y, 0, layout_.proposals());
+    propose_stretch(t, y, {0, layout_.proposals()});
     if (options_.burn_in) return;
     const LogSum sum = log_sum_exp(log_weights_);
     if (!std::isfinite(sum.largest)) return;
     const double mean = std::exp(sum.log_sum - sum.largest) / static_cast<double>(layout_.draws);
     layout_.burn_in = burn_in_for(mean, 1, kBurnInDistance, layout_.draws);
-    propose_range(t, y, layout_.draws, layout_.proposals());
+    propose_stretch(t, y, {layout_.draws, layout_.proposals()});
   }
 
-  /// Proposes and weighs proposals [from, to); those before `from` stand. Draws are addressed by proposal.
-  void propose_range(Step t, Rows<R> y, std::size_t from, std::size_t to) {
-    proposals_.resize(to);
-    log_weights_.resize(to);
-    weights_.resize(to);
-    std::vector<double> scratch(std::is_same_v<G, Prior> ? 0 : set_.size());
+  /// Runs the stages over the proposals of a stretch; those before it stand. Draws are addressed by proposal.
+  void propose_stretch(Step t, Rows<R> y, Stretch all) {
+    proposals_.resize(all.last);
+    log_weights_.resize(all.last);
+    log_uniforms_.resize(all.last);
+    weights_.resize(all.last);
+    if constexpr (!std::is_same_v<G, Prior>) parents_.resize(all.last);
+    if (all.size() == 0) return;
     const Permutation permutation(set_.size(), seed_ ^ mixed(static_cast<std::uint64_t>(t)));
+    const std::size_t words = words_of<R>(model_, proposal_, t, some(), y);
+    Chains chains(layout_, log_weights_, log_uniforms_, {}, picks_);
+    Stages stages{all,
+                  {{all}},
+                  [&](std::size_t proposer, std::size_t line, Stretch stretch) {
+                    propose(t, y, permutation, words, cursors(proposer, line), stretch);
+                  },
+                  [&](Stretch stretch) { weigh_stretch(t, y, stretch); },
+                  {}};
+    chosen_.reset();
+    if (chains_flow()) {
+      stages.lines = lines_of(layout_, runner_->lines());
+      stages.take = [&](Stretch stretch) { chains.take(stretch.first, stretch.last); };
+    }
+    runner_->run(stages);
+    if (chains_flow()) chosen_ = chains.report();
+  }
+
+  /// Where a proposer is in the draws.
+  struct Cursors {
+    DrawCursor<R> parents, moves, accepts;
+    DrawCursor<double> lookaheads;
+  };
+  Cursors& cursors(std::size_t proposer, std::size_t line) { return proposers_[proposer * runner_->lines() + line]; }
+  StateOf<M, R> some() const {
+    auto x = blank_state<R>(model_);
+    set_.read(0, x);
+    return x;
+  }
+
+  /// Draws all that is drawn of a stretch of proposals: parents, states, what the chains decide by.
+  void propose(Step t, Rows<R> y, const Permutation& permutation, std::size_t words, Cursors& at, Stretch stretch) {
+    if (lookahead_)
+      at.lookaheads.go(draws(t), Purpose::kParent, stretch.first, 1);
+    else if (options_.parents == Parents::kIid)
+      at.parents.go(draws(t), Purpose::kParent, stretch.first, 1);
+    at.moves.go(draws(t), Purpose::kMove, stretch.first, words);
+    at.accepts.go(draws(t), Purpose::kAccept, stretch.first, 1);
     auto before = blank_state<R>(model_);
-    const std::size_t n = set_.size();
-    for (std::size_t start = from / kBlock * kBlock; start < to; start += kBlock) {
-      auto parents = draws(t).template block<R>(Purpose::kParent, start / kBlock);
-      auto lookahead = draws(t).block(Purpose::kParent, start / kBlock);
-      auto moves = draws(t).template block<R>(Purpose::kMove, start / kBlock);
-      for (std::size_t j = start; j < std::min(start + kBlock, to); ++j) {
-        auto draw = moves.particle(j - start);
-        const auto [k, log_parent] = lookahead_
-                                         ? looked_ahead(n, lookahead.particle(j - start))
-                                         : Parent{uniform_parent(j, n, permutation, parents.particle(j - start)), 0};
-        set_.read(k, before);
-        const auto x = proposal_.template propose<R>(model_, t, before, y, draw);
-        if (j < from) continue;  // drawn again only to keep the block's stream in step
-        proposals_.write(j, x);
-        log_weights_[j] = Weight::template log_ratio<R>(model_, proposal_, t, x, k, set_, y, scratch) - log_parent;
+    for (std::size_t j = stretch.first; j < stretch.last; ++j) {
+      const auto [k, log_parent] = parent_of(j, permutation, at);
+      set_.read(k, before);
+      auto draw = at.moves.next();
+      proposals_.write(j, proposal_.template propose<R>(model_, t, before, y, draw));
+      if constexpr (!std::is_same_v<G, Prior>) parents_[j] = static_cast<Index>(k);
+      log_weights_[j] = -log_parent;
+      log_uniforms_[j] = std::log(static_cast<double>(at.accepts.next().uniform()));
+    }
+  }
+
+  void weigh_stretch(Step t, Rows<R> y, Stretch stretch) {
+    if constexpr (!std::is_same_v<G, Prior>) {
+      auto x = blank_state<R>(model_);
+      for (std::size_t j = stretch.first; j < stretch.last; ++j) {
+        proposals_.read(j, x);
+        log_weights_[j] += Weight::template log_ratio<R>(model_, proposal_, t, x, parents_[j], set_, y);
       }
     }
-    weigh<M, R>(model_, t, y, proposals_, log_weights_, from);
+    weigh<M, R>(model_, t, y, proposals_, log_weights_, stretch.first, stretch.last);
+  }
+
+  /// Runs the chains over all proposals at once.
+  void choose(Step t, bool collapsed) {
+    const auto starts =
+        options_.start == ChainStart::kWeighted && !collapsed ? weighted_starts(t) : std::vector<Index>{};
+    chosen_ = run_chains(layout_, log_weights_, log_uniforms_, starts, picks_);
   }
 
   struct Parent {
     std::size_t index;
     double log_weight;  // log (N g(k))
   };
-  Parent looked_ahead(std::size_t n, Draw<double> draw) const {
-    const std::size_t k = lookahead_->find(draw.uniform() * lookahead_->total());
-    return {k, std::log(lookahead_->weights()[k] / lookahead_->total() * static_cast<double>(n))};
-  }
-  std::size_t uniform_parent(std::size_t j, std::size_t n, const Permutation& permutation, Draw<R> draw) const {
+  Parent parent_of(std::size_t j, const Permutation& permutation, Cursors& at) const {
+    if (lookahead_) return looked_ahead(at.lookaheads.next());
+    const std::size_t n = set_.size();
     switch (options_.parents) {
       case Parents::kPermuted:
-        return permutation(j % n);
+        return {permutation(j % n), 0};
       case Parents::kSweep:
-        return j % n;
+        return {j % n, 0};
       case Parents::kIid:
         break;
     }
-    return draw.index(n);
+    return {at.parents.next().index(n), 0};
+  }
+  Parent looked_ahead(Draw<double> draw) const {
+    const std::size_t k = lookahead_->find(draw.uniform() * lookahead_->total());
+    return {k, std::log(lookahead_->weights()[k] / lookahead_->total() * static_cast<double>(set_.size()))};
   }
 
   /// g(k) for the auxiliary filter: half uniform, half the likelihood of the parent moved with its noise at the median;
@@ -210,17 +274,18 @@ class MetropolisFilter final : public Filter {
 
   StepReport judged(Step t, Rows<R> y) {
     StepReport report;
-    Judgement judgement = normalise(log_weights_, weights_);
+    Judgement judgement = judge(log_weights_, weights_);
     if (judgement.collapsed) {
       report.collapsed = true;
+      chosen_.reset();
       if (on_collapse_ == OnCollapse::kReset) {
         draw_prior(model_, proposals_, draws(t), Purpose::kReset);
         std::fill(log_weights_.begin(), log_weights_.end(), 0.0);
         weigh<M, R>(model_, t, y, proposals_, log_weights_);
-        judgement = normalise(log_weights_, weights_);
+        judgement = judge(log_weights_, weights_);
       }
       if (judgement.collapsed) std::fill(log_weights_.begin(), log_weights_.end(), 0.0);
-      judgement = normalise(log_weights_, weights_);
+      judgement = judge(log_weights_, weights_);
     }
     weighted_ = &proposals_;
     total_ = judgement.total;
@@ -250,10 +315,14 @@ class MetropolisFilter final : public Filter {
   std::uint64_t seed_;
   ChainOptions options_;
   OnCollapse on_collapse_;
+  StageRunner* runner_;
+  std::vector<Cursors> proposers_;  // one a proposer and line
   ChainLayout layout_;
   Particles<R> set_, proposals_;  // the unweighted set S_{t-1}; the proposals of this step
-  std::vector<double> log_weights_, weights_;
+  std::vector<double> log_weights_, log_uniforms_, weights_;
+  std::vector<Index> parents_;  // of the proposals, where their weights depend on them
   std::vector<Index> picks_;
+  std::optional<ChainReport> chosen_;  // what the chains did, if they have picked
   std::vector<double> parent_weights_;
   std::optional<WeightScan> lookahead_;
   const Particles<R>* weighted_ = &set_;
@@ -263,17 +332,18 @@ class MetropolisFilter final : public Filter {
 /// The IMH filter with the mixture weights of IMH-HW (12).
 template <class R = double, class G = Prior, Model M>
 std::unique_ptr<Filter> make_imh(M model, std::size_t particles, std::uint64_t seed, const ChainOptions& options = {},
-                                 OnCollapse on_collapse = OnCollapse::kStop) {
+                                 OnCollapse on_collapse = OnCollapse::kStop, StageRunner& runner = stage_by_stage()) {
   return std::make_unique<MetropolisFilter<M, R, G, MixtureWeight>>(std::move(model), particles, seed, options,
-                                                                    on_collapse);
+                                                                    on_collapse, runner);
 }
 
 /// The auxiliary-variable IMH filter: pairs (x, k), any proposal, no sum over parents.
 template <class R = double, class G = Prior, Model M>
 std::unique_ptr<Filter> make_auxiliary(M model, std::size_t particles, std::uint64_t seed,
-                                       const ChainOptions& options = {}, OnCollapse on_collapse = OnCollapse::kStop) {
+                                       const ChainOptions& options = {}, OnCollapse on_collapse = OnCollapse::kStop,
+                                       StageRunner& runner = stage_by_stage()) {
   return std::make_unique<MetropolisFilter<M, R, G, PairWeight>>(std::move(model), particles, seed, options,
-                                                                 on_collapse);
+                                                                 on_collapse, runner);
 }
 
 }  // namespace mote

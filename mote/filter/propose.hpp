@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "mote/filter/draw_cursor.hpp"
 #include "mote/filter/particles.hpp"
 
 namespace mote {
@@ -14,14 +15,15 @@ void draw_prior(const M& model, Particles<R>& x, const Draws& draws, Purpose pur
                     [&](std::size_t i, auto& draw) { x.write(i, model.template initial<R>(draw)); });
 }
 
-/// Moves particle i by the model: x_i ~ p(. | x_i).
+/// Moves particles [first, last) by the model: x_i ~ p(. | x_i), with draws from where `moves` is.
 template <Model M, class R>
-void move(const M& model, Step t, Particles<R>& x, const Draws& draws) {
+void move(const M& model, Step t, Particles<R>& x, DrawCursor<R>& moves, std::size_t first, std::size_t last) {
   auto before = blank_state<R>(model);
-  draws.for_each<R>(Purpose::kMove, 0, x.size(), [&](std::size_t i, auto& draw) {
+  for (std::size_t i = first; i < last; ++i) {
+    auto draw = moves.next();
     x.read(i, before);
     x.write(i, model.template next<R>(t, before, draw));
-  });
+  }
 }
 
 /// A log density that can be used: NaN and +infinity (a state outside the model's domain) count as density zero.
@@ -39,19 +41,21 @@ double log_importance(const M& model, const G& proposal, Step t, const StateOf<M
   }
 }
 
-/// Proposes in place, x_i ~ g(. | x_i, y), and adds log [p(x_i | before) / g(x_i | before, y)] to the log weights.
+/// Proposes particles [first, last) in place, x_i ~ g(. | x_i, y), with draws from where `moves` is, and adds
+/// log [p(x_i | before) / g(x_i | before, y)] to their log weights.
 ///
 /// source  docs/filters.md (F3), (F4); IMH-HW (4), without its likelihood factor
 template <Model M, class R, class G>
 void propose(const M& model, const G& proposal, Step t, Rows<R> y, Particles<R>& x, std::span<double> log_weights,
-             const Draws& draws) {
+             DrawCursor<R>& moves, std::size_t first, std::size_t last) {
   auto before = blank_state<R>(model);
-  draws.for_each<R>(Purpose::kMove, 0, x.size(), [&](std::size_t i, auto& draw) {
+  for (std::size_t i = first; i < last; ++i) {
+    auto draw = moves.next();
     x.read(i, before);
     const auto after = proposal.template propose<R>(model, t, before, y, draw);
     log_weights[i] += log_importance<R>(model, proposal, t, after, before, y);
     x.write(i, after);
-  });
+  }
 }
 
 }  // namespace mote

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "mote/filter/settle.hpp"
+#include "mote/filter/stages.hpp"
 
 namespace mote {
 
@@ -13,7 +14,8 @@ namespace mote {
 ///   x^i ~ g(. | x^i_{t-1}, y);   w^i = W^i_{t-1} p(y | x^i) p(x^i | x^i_{t-1}) / g(x^i | x^i_{t-1}, y)
 ///   evidence = sum w^i;   estimates from (x, w) before selection
 ///
-/// shape   N particles; R is the number type of states and likelihoods, weights are double
+/// shape   N particles; R is the number type of states and likelihoods, weights are double; `runner`, who runs the
+///         stages of a step, outlives the filter
 /// error   none; a collapsed step is reported, see OnCollapse
 /// cost    O(N) a step; memory about (2 D + 3) 8 N bytes
 /// source  docs/filters.md (F3) to (F6), (F27); IMH-HW (4)-(6); FPGA (5)-(7)
@@ -21,18 +23,21 @@ template <Model M, class R = double, class G = Prior>
 class ImportanceFilter final : public Filter {
  public:
   ImportanceFilter(M model, std::size_t particles, std::uint64_t seed, std::unique_ptr<Selector<R>> selector,
-                   OnCollapse on_collapse)
+                   OnCollapse on_collapse, StageRunner& runner = stage_by_stage())
       : model_(std::move(model)),
         proposal_(make_proposal<G>(model_)),
         seed_(seed),
         selector_(std::move(selector)),
         on_collapse_(on_collapse),
+        runner_(&runner),
+        moves_(runner.proposers()),
         cloud_(model_.states().size(), particles) {
     draw_prior(model_, cloud_.x, draws(0));
   }
 
   StepReport predict(Step t) override {
-    move(model_, t, cloud_.x, draws(t));
+    run(t, words_of<R>(model_, Prior{}, t, some(), {}),
+        [&](DrawCursor<R>& at, Stretch stretch) { move(model_, t, cloud_.x, at, stretch.first, stretch.last); }, {});
     // carried weights stay as they are: after a w / a selection their sum is 1 only in the mean, and belongs to the
     // evidence
     return told(settled(judge(cloud_.log_weights, cloud_.weights), false));
@@ -40,8 +45,12 @@ class ImportanceFilter final : public Filter {
 
   StepReport update(Step t, Rows<double> rows) override {
     const auto y = rows_as<R>(rows);
-    propose<M, R>(model_, proposal_, t, y, cloud_.x, cloud_.log_weights, draws(t));
-    weigh<M, R>(model_, t, y, cloud_.x, cloud_.log_weights);
+    run(
+        t, words_of<R>(model_, proposal_, t, some(), Rows<R>(y)),
+        [&](DrawCursor<R>& at, Stretch stretch) {
+          propose<M, R>(model_, proposal_, t, y, cloud_.x, cloud_.log_weights, at, stretch.first, stretch.last);
+        },
+        [&](Stretch stretch) { weigh<M, R>(model_, t, y, cloud_.x, cloud_.log_weights, stretch.first, stretch.last); });
     return told(settle<M, R>(model_, t, y, cloud_, draws(t), on_collapse_));
   }
 
@@ -59,6 +68,27 @@ class ImportanceFilter final : public Filter {
  private:
   Draws draws(Step t) const { return {seed_, static_cast<std::uint32_t>(t)}; }
 
+  StateOf<M, R> some() const {
+    auto x = blank_state<R>(model_);
+    cloud_.x.read(0, x);
+    return x;
+  }
+
+  /// Runs the stages over all particles, each of which takes `words` numbers to be proposed.
+  template <class Propose>
+  void run(Step t, std::size_t words, const Propose& propose, std::function<void(Stretch)> weigh) {
+    const Stretch all{0, cloud_.size()};
+    runner_->run({all,
+                  {{all}},
+                  [&](std::size_t proposer, std::size_t, Stretch stretch) {
+                    DrawCursor<R>& at = moves_[proposer];
+                    at.go(draws(t), Purpose::kMove, stretch.first, words);
+                    propose(at, stretch);
+                  },
+                  std::move(weigh),
+                  {}});
+  }
+
   StepReport told(const Settled& step) {
     total_ = step.total;
     return step.report;
@@ -69,6 +99,8 @@ class ImportanceFilter final : public Filter {
   std::uint64_t seed_;
   std::unique_ptr<Selector<R>> selector_;
   OnCollapse on_collapse_;
+  StageRunner* runner_;
+  std::vector<DrawCursor<R>> moves_;  // where each proposer is in the draws
   Cloud<R> cloud_;
   double total_ = 0;
 };
@@ -76,9 +108,10 @@ class ImportanceFilter final : public Filter {
 /// SISR: importance filter that resamples the whole set when its effective sample size falls to the threshold.
 template <class R = double, class G = Prior, Model M>
 std::unique_ptr<Filter> make_sisr(M model, std::size_t particles, std::uint64_t seed,
-                                  const SelectionOptions& selection = {}, OnCollapse on_collapse = OnCollapse::kStop) {
-  return std::make_unique<ImportanceFilter<M, R, G>>(std::move(model), particles, seed,
-                                                     std::make_unique<WholeSelector<R>>(selection), on_collapse);
+                                  const SelectionOptions& selection = {}, OnCollapse on_collapse = OnCollapse::kStop,
+                                  StageRunner& runner = stage_by_stage()) {
+  return std::make_unique<ImportanceFilter<M, R, G>>(
+      std::move(model), particles, seed, std::make_unique<WholeSelector<R>>(selection), on_collapse, runner);
 }
 
 /// The distributed filter: K groups on a ring, selection inside groups or over all (then it is SISR).

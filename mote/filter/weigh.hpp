@@ -34,19 +34,23 @@ concept WeighsAll = Model<M> &&
   m.weigh_all(t, y, x, first, log_weights);
 };
 
-/// Adds log p(y | x_i) to the log weights of particles [first, N).
+/// Adds log p(y | x_i) to the log weights of particles [first, last).
 template <Model M, class R>
-void weigh(const M& model, Step t, Rows<R> y, const Particles<R>& x, std::span<double> log_weights,
-           std::size_t first = 0) {
-  if constexpr (WeighsAll<M, R>) {
-    model.weigh_all(t, y, x, first, log_weights);
-  } else {
-    auto state = blank_state<R>(model);
-    for (std::size_t i = first; i < x.size(); ++i) {
-      x.read(i, state);
-      log_weights[i] += log_likelihood<R>(model, t, state, y);
-    }
+void weigh(const M& model, Step t, Rows<R> y, const Particles<R>& x, std::span<double> log_weights, std::size_t first,
+           std::size_t last) {
+  if constexpr (WeighsAll<M, R>)
+    if (last == x.size()) return model.weigh_all(t, y, x, first, log_weights);
+  auto state = blank_state<R>(model);
+  for (std::size_t i = first; i < last; ++i) {
+    x.read(i, state);
+    log_weights[i] += log_likelihood<R>(model, t, state, y);
   }
+}
+
+/// Adds log p(y | x_i) to all log weights.
+template <Model M, class R>
+void weigh(const M& model, Step t, Rows<R> y, const Particles<R>& x, std::span<double> log_weights) {
+  weigh<M, R>(model, t, y, x, log_weights, 0, x.size());
 }
 
 /// What a weight vector says of its step.

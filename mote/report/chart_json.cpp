@@ -64,6 +64,12 @@ json to_json(const Chart& chart, const Band& band) {
   return {{"name", band.name}, {"x", numbers(band.x)}, {"low", numbers(band.low)}, {"high", numbers(band.high)}};
 }
 
+json to_json(const Chart& chart, const Bars& bars) {
+  require_length(chart.title, bars.name, "end", bars.begin.size(), bars.end.size());
+  require_length(chart.title, bars.name, "row", bars.begin.size(), bars.row.size());
+  return {{"name", bars.name}, {"begin", numbers(bars.begin)}, {"end", numbers(bars.end)}, {"row", numbers(bars.row)}};
+}
+
 template <class Part>
 json all_of(const Chart& chart, const std::vector<Part>& parts) {
   json list = json::array();
@@ -78,7 +84,9 @@ json to_json(const Chart& chart) {
           {"log_x", chart.log_x},
           {"log_y", chart.log_y},
           {"equal_axes", chart.equal_axes},
+          {"rows", chart.rows},
           {"bands", all_of(chart, chart.bands)},
+          {"bars", all_of(chart, chart.bars)},
           {"series", all_of(chart, chart.series)}};
 }
 

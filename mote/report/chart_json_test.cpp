@@ -22,13 +22,18 @@ TEST(ChartJson, CarriesEveryPartOfAChart) {
                                         {"observed", Series::Mark::kPoints, {1}, {1.5}},
                                         {"mode", Series::Mark::kSteps, {1}, {0}},
                                         {"study", Series::Mark::kMarkedLine, {1}, {0}}},
-                             .log_y = true});
+                             .log_y = true,
+                             .bars = {{"weigh", {0, 2}, {1, 3}, {1, 0}}},
+                             .rows = {"a", "b"}});
   EXPECT_EQ(json["title"], "Level");
   EXPECT_EQ(json["bands"][0]["high"], nlohmann::json({2, 3}));
   EXPECT_EQ(json["series"][0]["mark"], "line");
   EXPECT_EQ(json["series"][1]["mark"], "points");
   EXPECT_EQ(json["series"][2]["mark"], "steps");
   EXPECT_EQ(json["series"][3]["mark"], "marked");
+  EXPECT_EQ(json["bars"][0]["end"], nlohmann::json({1, 3}));
+  EXPECT_EQ(json["bars"][0]["row"], nlohmann::json({1, 0}));
+  EXPECT_EQ(json["rows"], nlohmann::json({"a", "b"}));
   EXPECT_EQ(json["log_x"], false);
   EXPECT_EQ(json["log_y"], true);
   EXPECT_EQ(json["equal_axes"], false);
@@ -75,6 +80,8 @@ TEST(ChartJson, RefusesColumnsOfDifferentLength) {
                  "Give every x its value, nan where there is none.");
   }
   EXPECT_THROW(chart_json(ragged_band), std::invalid_argument);
+  const std::vector<Chart> ragged_bars{{.title = "Level", .bars = {{"b", {1, 2}, {1, 2}, {1}}}}};
+  EXPECT_THROW(chart_json(ragged_bars), std::invalid_argument);
 }
 
 }  // namespace

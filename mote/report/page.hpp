@@ -25,6 +25,12 @@ struct Band {
   std::vector<double> x = {}, low = {}, high = {};
 };
 
+/// Bars from begin to end along x, each in a row: who was at work when. All in one colour.
+struct Bars {
+  std::string name;
+  std::vector<double> begin = {}, end = {}, row = {};
+};
+
 /// One plot. Charts with the same x_label zoom together along x. Titles name charts and should differ within a page.
 struct Chart {
   std::string title, x_label = {}, y_label = {};
@@ -32,6 +38,8 @@ struct Chart {
   std::vector<Series> series = {};
   bool log_x = false, log_y = false;  ///< a logarithmic axis shows positive values only; the page counts the rest
   bool equal_axes = false;            ///< one unit is as long along x as along y: tracks in the plane
+  std::vector<Bars> bars = {};
+  std::vector<std::string> rows = {};  ///< names of y = 0, 1, ..., counted from the top: what bars are rows of
 };
 
 struct Fact {
@@ -65,7 +73,8 @@ struct Page {
 /// Any text may stand in any name, markup included; bytes that are no UTF-8 are replaced. Numbers keep 7 significant
 /// digits of a series' range. Without plots_built_in() the charts are replaced by a note that says so.
 ///
-/// error   std::invalid_argument if x and y (low, high) of a series (band) differ in length, or if a row of a table has
+/// error   std::invalid_argument if x and y (low, high; end, row) of a series (band; bars) differ in length, or if a
+/// row of a table has
 ///         not one cell per column
 /// cost    O(characters + points); about 0.6 MB for the plots' code and 10 bytes per number
 std::string html(const Page& page);

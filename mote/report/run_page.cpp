@@ -103,6 +103,32 @@ Chart over_time(const RunRecord& record, const std::string& title, const std::st
   return chart;
 }
 
+/// Who was at work when, in the steps that the record shows: a row a worker, one for what all stages wait for.
+Chart stage_chart(const StageRecord& record) {
+  std::vector<std::string> steps;
+  for (const Step t : record.timeline_steps) steps.push_back(std::to_string(t));
+  Chart chart{.title = "Stages at work, t = " + fmt::format("{}", fmt::join(steps, ", ")),
+              .x_label = "ms since the step began"};
+  std::vector<double> first_row;
+  for (const StageUse& stage : record.stages) {
+    first_row.push_back(static_cast<double>(chart.rows.size()));
+    for (std::size_t k = 0; k < stage.workers.size(); ++k)
+      chart.rows.push_back(fmt::format("{} {}", stage.name, k + 1));
+    if (!stage.workers.empty()) chart.bars.push_back({stage.name});
+  }
+  first_row.push_back(static_cast<double>(chart.rows.size()));
+  chart.rows.emplace_back("barrier");
+  chart.bars.push_back({"barrier: sums, estimates, selection"});
+  for (const StageSpan& span : record.timeline) {
+    const bool barrier = span.stage >= record.stages.size();
+    Bars& bars = barrier ? chart.bars.back() : chart.bars[span.stage];
+    bars.begin.push_back(1e3 * span.begin);
+    bars.end.push_back(1e3 * span.end);
+    bars.row.push_back(first_row[span.stage] + static_cast<double>(span.worker));
+  }
+  return chart;
+}
+
 std::vector<Chart> charts_of(const RunRecord& record, const Summary& summary, const Recording& recording,
                              const Truth* truth) {
   std::vector<Chart> charts;
@@ -128,6 +154,7 @@ std::vector<Chart> charts_of(const RunRecord& record, const Summary& summary, co
                                [](const EstimateRow& row) { return row.report.acceptance; }));
   charts.push_back(over_time(record, "Log evidence of each step", "nat", Series::Mark::kPoints,
                              [](const EstimateRow& row) { return row.report.log_evidence; }));
+  if (record.stages && !record.stages->timeline.empty()) charts.push_back(stage_chart(*record.stages));
   return charts;
 }
 
@@ -152,8 +179,22 @@ std::vector<Fact> facts_of(const RunRecord& record, const Summary& summary, cons
   return facts;
 }
 
-std::vector<Table> tables_of(const RunRecord& record, const Summary& summary) {
-  if (summary.rmse.empty()) return {};
+Table stage_table(const StageRecord& record) {
+  Table table{.title = "Stages",
+              .columns = {"Worker", "Blocks", "Busy (s)", "Idle (s)", "Busy", "Mean queue", "Largest queue"}};
+  for (const StageUse& stage : record.stages)
+    for (std::size_t k = 0; k < stage.workers.size(); ++k) {
+      const StageWorker& worker = stage.workers[k];
+      table.rows.push_back(
+          {fmt::format("{} {}", stage.name, k + 1), std::to_string(worker.blocks),
+           fmt::format("{:.3g}", worker.busy_seconds), fmt::format("{:.3g}", record.seconds - worker.busy_seconds),
+           fmt::format("{:.0f} %", 100 * worker.busy_seconds / record.seconds),
+           k == 0 ? fmt::format("{:.1f}", stage.mean_queue) : "", k == 0 ? std::to_string(stage.largest_queue) : ""});
+    }
+  return table;
+}
+
+Table error_table(const RunRecord& record, const Summary& summary) {
   Table errors{.title = "Error against the truth", .columns = {"Quantity", "RMSE", "Mean", "Median", "Unit"}};
   for (std::size_t d = 0; d < summary.rmse.size(); ++d)
     if (!std::isnan(summary.rmse[d]))
@@ -162,7 +203,14 @@ std::vector<Table> tables_of(const RunRecord& record, const Summary& summary) {
   if (const auto& p = summary.position_error)
     errors.rows.push_back({"position", fmt::format("{:.4g}", p->rmse), fmt::format("{:.4g}", p->mean),
                            fmt::format("{:.4g}", p->median), "m"});
-  return {errors};
+  return errors;
+}
+
+std::vector<Table> tables_of(const RunRecord& record, const Summary& summary) {
+  std::vector<Table> tables;
+  if (!summary.rmse.empty()) tables.push_back(error_table(record, summary));
+  if (record.stages) tables.push_back(stage_table(*record.stages));
+  return tables;
 }
 
 }  // namespace
@@ -178,6 +226,11 @@ Page run_page(const RunRecord& record, const Summary& summary, const Recording& 
   page.facts = facts_of(record, summary, source);
   page.charts = charts_of(record, summary, recording, truth);
   page.tables = tables_of(record, summary);
+  if (record.stages)
+    page.notes.push_back(fmt::format(
+        "{} threads ran the stages; these were at work for {:.3g} s and waited {:.3g} s for what a step does once: "
+        "sums, estimates, selection. A queue counts the blocks that waited when a worker took one up.",
+        record.stages->threads, record.stages->seconds, record.stages->barrier_seconds));
   if (summary.collapses > 0)
     page.notes.push_back(fmt::format(
         "At {} steps every particle had weight zero; the filter went on as --on-collapse says.", summary.collapses));

@@ -9,8 +9,8 @@
 namespace mote::report {
 
 /// A run as a page: every state with its 2-sd band, truth and direct observations; the track in the plane for models
-/// with states x and y; other observations; ESS, acceptance, evidence and functions over time; the figures; the
-/// command.
+/// with states x and y; other observations; ESS, acceptance, evidence and functions over time; the stages of a pipeline
+/// at work; the figures; the command.
 ///
 /// `truth` may be nullptr; `source` names the data; `command` makes the run again.
 Page run_page(const RunRecord& record, const Summary& summary, const Recording& recording, const Truth* truth,

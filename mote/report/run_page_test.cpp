@@ -58,5 +58,25 @@ TEST(RunPage, BreaksTheLineOfAnAngleThatWraps) {
   EXPECT_EQ(std::count_if(y.begin(), y.end(), [](double v) { return std::isnan(v); }), 2);
 }
 
+TEST(RunPage, DrawsTheStagesOfAPipeline) {
+  RunRecord record = record_of({{"level", ""}});
+  record.stages =
+      StageRecord{2,      2.0,
+                  0.5,    {{"propose", {{0.5, 3}}, 0, 0}, {"weigh", {{1.5, 2}, {1.0, 1}}, 1.5, 2}, {"chain", {}, 0, 0}},
+                  {2, 3}, {{0, 0, 0, 0.1}, {1, 1, 0.1, 0.3}, {3, 0, 0.3, 0.4}}};
+  const Page page = run_page(record, summarise(record, nullptr), {}, nullptr, "", "");
+  const Chart& chart = page.charts.back();
+  EXPECT_EQ(chart.title, "Stages at work, t = 2, 3");
+  EXPECT_EQ(chart.rows, (std::vector<std::string>{"propose 1", "weigh 1", "weigh 2", "barrier"}));
+  ASSERT_EQ(chart.bars.size(), 3U) << "a stage without workers has no bars";
+  EXPECT_EQ(chart.bars[1].begin, (std::vector<double>{100}));
+  EXPECT_EQ(chart.bars[1].end, (std::vector<double>{300}));
+  EXPECT_EQ(chart.bars[1].row, (std::vector<double>{2}));
+  EXPECT_EQ(chart.bars[2].row, (std::vector<double>{3}));
+  ASSERT_EQ(page.tables.size(), 1U);
+  EXPECT_EQ(page.tables[0].rows[1], (std::vector<std::string>{"weigh 1", "2", "1.5", "0.5", "75 %", "1.5", "2"}));
+  EXPECT_NE(page.notes.front().find("2 threads"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace mote::report

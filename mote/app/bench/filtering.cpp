@@ -57,16 +57,6 @@ Task growth(const TaskEntry& entry, Precision precision, const contenders::Descr
   return task;
 }
 
-/// Greatest difference of two answers, in the units of the states; angles here stay away from +-pi.
-double greatest_between(const std::vector<double>& a, const std::vector<double>& b) {
-  double greatest = a.size() == b.size() ? 0 : kInfinity;
-  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
-    const double apart = std::abs(a[i] - b[i]);
-    greatest = apart <= greatest ? greatest : apart;  // NaN counts
-  }
-  return greatest;
-}
-
 // claim    the means are those of the reference engine in double, which draws the same numbers
 // referee  the reference engine
 // design   1000 particles, seed 1, 10 steps. Vectors round otherwise, by parts in 1e-16, and their normal numbers are

@@ -27,6 +27,11 @@ bool has_limit(const Outcome& outcome) {
                      [](const Result& r) { return !std::isnan(r.of_limit.value); });
 }
 
+bool has_law(const Outcome& outcome) {
+  return std::any_of(outcome.results.begin(), outcome.results.end(),
+                     [](const Result& r) { return !std::isnan(r.predicted); });
+}
+
 /// A column of a task's table.
 struct Column {
   std::string name;
@@ -45,6 +50,11 @@ std::vector<Column> columns_of(const Outcome& outcome) {
   if (has_limit(outcome))
     columns.push_back(
         {"of limit", [](const Result& r) { return r.entrant == "limit" ? "1" : with_interval(r.of_limit); }});
+  if (has_law(outcome)) {
+    columns.push_back({"predicted", [](const Result& r) { return short_number(r.predicted); }});
+    columns.push_back({"x predicted", [](const Result& r) { return with_interval(r.to_predicted); }});
+    return columns;
+  }
   columns.push_back({"bytes", [](const Result& r) { return short_number(r.bytes); }});
   columns.push_back({"GB/s", [](const Result& r) { return short_number(r.bytes / r.ns.median); }});
   columns.push_back({"MB", [](const Result& r) { return short_number(r.memory / 1e6); }});
@@ -84,11 +94,13 @@ std::vector<std::string> notes_of(const Report& report) {
   std::vector<std::string> notes;
   notes.push_back(
       fmt::format("ns: per particle and step, median of {} rounds in which all took turns; CPU time of the thread, for "
-                  "the task threads wall-clock.",
+                  "the tasks threads and pipeline wall-clock.",
                   report.repeats));
   notes.emplace_back(
       "x, of limit: ratios of times within a round, their median and 95 % interval (bootstrap of rounds).");
   notes.emplace_back("bytes: read and written at least per particle and step (derived); GB/s: bytes by ns.");
+  if (std::any_of(report.outcomes.begin(), report.outcomes.end(), has_law))
+    notes.emplace_back("predicted: by the latency law of the setting (docs/pipeline.md), from the cost of its stages.");
   notes.emplace_back("MB: memory held after a run.");
   notes.emplace_back("Every answer was checked before anything was timed; --json has the verdicts.");
   return notes;
@@ -115,6 +127,9 @@ json result_json(const Result& r) {
           {"ratio_to_first_interval", interval_json(r.to_first.interval)},
           {"fraction_of_limit", number(r.of_limit.value)},
           {"fraction_of_limit_interval", interval_json(r.of_limit.interval)},
+          {"predicted_ns", number(r.predicted)},
+          {"ratio_to_predicted", number(r.to_predicted.value)},
+          {"ratio_to_predicted_interval", interval_json(r.to_predicted.interval)},
           {"bytes_per_particle_step", number(r.bytes)},
           {"gigabytes_per_second", number(r.bytes / r.ns.median)},
           {"memory_bytes", number(r.memory)},

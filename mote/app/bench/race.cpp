@@ -49,6 +49,7 @@ struct Lane {
   std::unique_ptr<Racer> racer;
   double memory = kNaN;
   std::vector<double> rounds{};
+  std::vector<double> predicted{};  // likewise, where there is a law
 };
 
 /// Seconds of one run.
@@ -73,14 +74,17 @@ Lane warmed(const Entrant& entrant, Clock clock, std::size_t particles, std::vec
 
 void take_turn(Lane& lane, const Task& task, std::size_t particles, std::uint64_t round, std::vector<double>& answer) {
   const std::size_t work = particles * task.steps;
-  const std::size_t runs = (kLeastWork + work - 1) / work;
+  const std::size_t runs = task.waits ? 1 : (kLeastWork + work - 1) / work;
   double seconds = 0;
   for (std::size_t k = 0; k < runs; ++k) seconds += one_run(*lane.racer, task.clock, particles, round + 1, answer);
   lane.rounds.push_back(1e9 * seconds / static_cast<double>(runs * work));
+  if (lane.entrant->predicted)
+    lane.predicted.push_back(1e9 * lane.entrant->predicted(particles) / static_cast<double>(work));
 }
 
 Result result_of(const Lane& lane, std::size_t particles, const Lane& first, const Lane* limit) {
   const Ratio none{kNaN, {kNaN, kNaN}};
+  const bool has_law = !lane.predicted.empty();
   return {lane.entrant->name,
           particles,
           lane.rounds,
@@ -88,7 +92,9 @@ Result result_of(const Lane& lane, std::size_t particles, const Lane& first, con
           lane.entrant->bytes,
           lane.memory,
           paired_ratio(lane.rounds, first.rounds),
-          limit == nullptr ? none : paired_ratio(limit->rounds, lane.rounds)};
+          limit == nullptr ? none : paired_ratio(limit->rounds, lane.rounds),
+          has_law ? compare::median(lane.predicted) : kNaN,
+          has_law ? paired_ratio(lane.rounds, lane.predicted) : none};
 }
 
 void race_at(const Task& task, const std::vector<const Entrant*>& present, std::size_t particles, const Rules& rules,

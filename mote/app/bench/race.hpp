@@ -28,7 +28,9 @@ struct Result {
   double bytes;                ///< moved per particle-step, derived
   double memory;               ///< bytes the entrant holds, measured after a run; NaN where nobody says
   Ratio to_first;              ///< its time over that of the task's first entrant
-  Ratio of_limit;  ///< the limit's time over its own: 1 = as fast as the hardware allows; NaN without a limit
+  Ratio of_limit;           ///< the limit's time over its own: 1 = as fast as the hardware allows; NaN without a limit
+  double predicted = kNaN;  ///< ns per particle-step, by its law; NaN without one
+  Ratio to_predicted{kNaN, {kNaN, kNaN}};  ///< its time over that
 };
 
 /// An entrant that did not take part.

@@ -1,5 +1,8 @@
 #include "mote/app/bench/racers.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 namespace mote::bench {
@@ -96,6 +99,15 @@ Entrant contender_entrant(const contenders::Description& description, std::share
           description.why_not(), [&description, course = std::move(course)] {
             return std::make_unique<ContenderRacer>(description, course->scene.recording);
           }};
+}
+
+double greatest_between(const std::vector<double>& a, const std::vector<double>& b) {
+  double greatest = a.size() == b.size() ? 0 : kInfinity;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    const double apart = std::abs(a[i] - b[i]);
+    greatest = apart <= greatest ? greatest : apart;  // NaN counts
+  }
+  return greatest;
 }
 
 std::vector<double> answer_of(const Entrant& entrant, std::size_t particles, std::uint64_t seed) {

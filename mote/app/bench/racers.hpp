@@ -29,6 +29,9 @@ Entrant filter_entrant(const std::string& name, std::shared_ptr<const Course> co
 /// A contender on a recording of `ungm`; its answer is the mean at every step, (T,).
 Entrant contender_entrant(const contenders::Description& description, std::shared_ptr<const Course> course);
 
+/// Greatest difference of two answers, in the units of the states.
+double greatest_between(const std::vector<double>& a, const std::vector<double>& b);
+
 /// The answer of an entrant for a number of particles and a seed.
 std::vector<double> answer_of(const Entrant& entrant, std::size_t particles, std::uint64_t seed);
 

@@ -19,7 +19,7 @@ class Racer {
   virtual void prepare(std::size_t particles, std::uint64_t seed) = 0;
   /// Does the task; timed. Every run follows a prepare() of its own.
   virtual void run(std::vector<double>& answer) = 0;
-  /// Seconds of the last run where a program outside did it and timed itself; NaN: it ran in here.
+  /// Seconds of the last run where it was timed by a program outside, or by the racer itself; NaN: by the race.
   virtual double outside_seconds() const { return kNaN; }
   /// Bytes of memory that a program outside took for it; NaN: it ran in here.
   virtual double outside_bytes() const { return kNaN; }
@@ -38,6 +38,7 @@ struct Entrant {
   double bytes;         ///< read and written at least per particle-step once the particles outgrow the caches; derived
   std::string why_not;  ///< why it cannot run here; empty: it can
   std::function<std::unique_ptr<Racer>()> make;
+  std::function<double(std::size_t particles)> predicted = {};  ///< seconds of a run, by a law; empty: none says
 };
 
 /// How an answer was judged: right if low <= value <= high.
@@ -60,6 +61,7 @@ struct Task {
   /// The first is whom the others are measured against; one called "limit" is what all are measured against, too.
   std::vector<Entrant> entrants;
   std::function<Verdict(const Entrant&)> judge;
+  bool waits = false;  ///< a run is as long for few particles: it is not repeated within a turn
 };
 
 /// A task by its name and what it is about; made only when asked for, since making one may draw recordings.

@@ -9,7 +9,8 @@ const std::vector<TaskEntry>& tasks() {
       {"bearings", "bearings-only tracking, 4 states, bootstrap filter, 30 steps; one thread", bearings_task},
       {"doa", "direction of arrival, 3 states, bootstrap filter, 30 steps; one thread", doa_task},
       {"resample", "ancestors from weights, and their states copied; one thread", resample_task},
-      {"threads", "growth model in float on several threads, 100 steps; wall-clock", threads_task}};
+      {"threads", "growth model in float on several threads, 100 steps; wall-clock", threads_task},
+      {"pipeline", "stages of known cost against their latency law, then computing ones; wall-clock", pipeline_task}};
   return all;
 }
 

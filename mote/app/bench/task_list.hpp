@@ -11,5 +11,6 @@ Task bearings_task(const TaskEntry& entry, std::size_t threads);
 Task doa_task(const TaskEntry& entry, std::size_t threads);
 Task resample_task(const TaskEntry& entry, std::size_t threads);
 Task threads_task(const TaskEntry& entry, std::size_t threads);
+Task pipeline_task(const TaskEntry& entry, std::size_t threads);
 
 }  // namespace mote::bench

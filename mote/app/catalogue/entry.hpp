@@ -3,6 +3,7 @@
 
 #include "mote/app/catalogue/catalogue.hpp"
 #include "mote/app/catalogue/simd.hpp"
+#include "mote/software/pipeline/pipelined.hpp"
 #include "mote/software/reference.hpp"
 
 namespace mote {
@@ -22,6 +23,8 @@ class CatalogueModelOf final : public CatalogueModel {
         [[fallthrough]];
       case Engine::kSimd:
         return simd_filter(model_, plan, where);
+      case Engine::kPipeline:
+        return make_pipeline_filter(model_, plan, where);
       default:
         return make_reference_filter(model_, plan, where);
     }

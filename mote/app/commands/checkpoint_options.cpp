@@ -35,7 +35,7 @@ std::string summed_up(const Recording& recording) {
 }
 
 std::string instruction_set(const Plan& plan) {
-  if (engine_of(plan) == Engine::kReference) return "any";
+  if (engine_of(plan) == Engine::kReference || engine_of(plan) == Engine::kPipeline) return "any";
   return std::string(name_of(best_isa().value_or(Isa::kSse4)));
 }
 
@@ -51,7 +51,7 @@ RunFacts facts_of(const Arguments& arguments, const Plan& plan, const Job& job) 
   facts.emplace_back("--estimate", fmt::format("{}", fmt::join(arguments.list("--estimate"), " ")));
   for (const OptionSpec& option : plan_options()) {
     const std::string name = option.flags.substr(option.flags.find("--"));
-    if (name == "--threads") continue;  // no result depends on them
+    if (name == "--threads" || name == "--proposers" || name == "--weighers") continue;  // no result depends on them
     facts.emplace_back(name, name == "--engine" ? std::string(name_of(engine_of(plan))) : arguments.text(name));
   }
   facts.emplace_back("instruction set", instruction_set(plan));

@@ -11,8 +11,7 @@ namespace mote {
 namespace {
 
 const std::vector<std::string> kFilters{"sisr", "imh", "auxiliary", "distributed", "sqmc", "ekf", "ukf"};
-const std::vector<std::string> kEngines{"fastest", "reference", "simd", "mpi"};
-const std::vector<std::string> kEnginesLater{"pipeline"};
+const std::vector<std::string> kEngines{"fastest", "reference", "simd", "mpi", "pipeline"};
 constexpr long long kMost = static_cast<long long>(kMostParticles);
 
 std::vector<std::string> scheme_names() {
@@ -22,17 +21,16 @@ std::vector<std::string> scheme_names() {
 }
 
 void refuse_what_is_not_there(const Arguments& arguments) {
-  for (const std::string name : {"--budget", "--proposers", "--weighers"})
-    if (arguments.given(name))
-      throw Refusal(ExitCode::kWrongUse, fmt::format("{}: {}: this version of mote does not have it yet. Leave it out.",
-                                                     arguments.where(), name));
-  const std::string engine = arguments.text("--engine");
-  if (std::find(kEnginesLater.begin(), kEnginesLater.end(), engine) != kEnginesLater.end())
-    throw Refusal(
-        ExitCode::kWrongUse,
-        fmt::format(
-            "{}: --engine {}: this version of mote does not have that engine yet. Pass --engine simd or reference.",
-            arguments.where(), engine));
+  if (arguments.given("--budget"))
+    throw Refusal(ExitCode::kWrongUse,
+                  arguments.where() + ": --budget: this version of mote does not have it yet. Leave it out.");
+}
+
+/// Workers of a stage; 0: not told.
+std::size_t workers_from(const Arguments& arguments, const std::string& option) {
+  return arguments.given(option)
+             ? static_cast<std::size_t>(arguments.integer(option, 1, static_cast<long long>(kMostStageWorkers)))
+             : 0;
 }
 
 ChainOptions chain_from(const Arguments& arguments, FilterKind filter) {
@@ -99,13 +97,14 @@ std::vector<OptionSpec> plan_options() {
        "carried = properly weighted; reset = every group counts alike after resampling (PPF)", groups},
       {"--engine", "NAME", "fastest",
        "simd (vectors and threads: sisr, imh, auxiliary), reference (all filters), the fastest of them that has the "
-       "filter, or mpi (sisr on the processes of mpirun)",
+       "filter; mpi (sisr on the processes of mpirun); or pipeline (sisr, imh, auxiliary: proposing, weighing and "
+       "chains side by side)",
        engine},
       {"--threads", "K", "",
        "threads; results never depend on it; the reference engine uses one [all cores; mpi: one a process]", engine},
       {"--precision", "TYPE", "double", "float or double", engine},
-      {"--proposers", "R", "", "pipeline engine: not in this version", engine},
-      {"--weighers", "R", "", "pipeline engine: not in this version", engine},
+      {"--proposers", "R", "", "pipeline: blocks of particles proposed at once, from 1 to 64 [1]", engine},
+      {"--weighers", "R", "", "pipeline: blocks weighed at once, from 1 to 64 [1]", engine},
       {"--budget", "TIME", "", "not in this version", engine},
   };
 }
@@ -132,6 +131,8 @@ Plan plan_from(const Arguments& arguments) {
   plan.threads = arguments.given("--threads")  ? static_cast<std::size_t>(arguments.integer("--threads", 1, 4096))
                  : plan.engine == Engine::kMpi ? 1
                                                : cores();
+  plan.proposers = workers_from(arguments, "--proposers");
+  plan.weighers = workers_from(arguments, "--weighers");
   check(plan, arguments.where());
   return plan;
 }

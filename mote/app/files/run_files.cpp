@@ -21,6 +21,22 @@ std::string field(const std::string& name) {
 /// JSON has no infinities: null stands for "not a number".
 nlohmann::json number(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr); }
 
+nlohmann::json stages_json(const StageRecord& record) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const StageUse& stage : record.stages) {
+    nlohmann::json workers = nlohmann::json::array();
+    for (const StageWorker& worker : stage.workers)
+      workers.push_back({{"busy_seconds", worker.busy_seconds},
+                         {"idle_seconds", record.seconds - worker.busy_seconds},
+                         {"blocks", worker.blocks}});
+    all.push_back({{"stage", stage.name},
+                   {"workers", std::move(workers)},
+                   {"mean_queue", stage.mean_queue},
+                   {"largest_queue", stage.largest_queue}});
+  }
+  return all;
+}
+
 }  // namespace
 
 std::string estimates_csv(const RunRecord& record) {
@@ -57,6 +73,12 @@ nlohmann::json summary_json(const RunRecord& record, const Summary& summary) {
   if (has_chain(record)) {
     json["acceptance"] = number(summary.acceptance);
     json["mean_burn_in"] = number(summary.mean_burn_in);
+  }
+  if (record.stages) {
+    json["threads"] = record.stages->threads;
+    json["stage_seconds"] = record.stages->seconds;
+    json["barrier_seconds"] = record.stages->barrier_seconds;
+    json["stages"] = stages_json(*record.stages);
   }
   if (!summary.rmse.empty()) {
     json["rmse"] = nlohmann::json::object();

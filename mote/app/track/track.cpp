@@ -43,7 +43,7 @@ TrackerOptions options_from(const Arguments& arguments) {
                                         std::string(name_of(options.plan.filter)) +
                                             ", which linearises the observation: a picture has no slope",
                                         "Pass --filter sisr."});
-  if (options.plan.engine == Engine::kSimd || options.plan.engine == Engine::kMpi)
+  if (options.plan.engine != Engine::kFastest && options.plan.engine != Engine::kReference)
     throw Refusal(
         ExitCode::kWrongUse,
         {arguments.where(), "--engine", "reference: a picture's likelihood is no arithmetic on vectors of particles",

@@ -10,8 +10,8 @@ export const colourOf = (item, colours) =>
 const isSecondRound = (item, colours) => item.colour >= colours.colours.length;
 const dash = (item, colours) => (item.truth ? [6, 4] : isSecondRound(item, colours) ? [2, 3] : "solid");
 
-function axis({ name, full, shown, log, whole, count, gap, place, empty, colours }) {
-  const marks = ticks(shown, count, { log, whole });
+function axis({ name, full, shown, log, whole, count, gap, place, empty, colours, rows = [] }) {
+  const marks = rows.length ? [...rows.keys()] : ticks(shown, count, { log, whole });
   const text = { color: colours.soft, fontFamily: colours.font, fontSize: 12 };
   return {
     type: "value",
@@ -22,6 +22,7 @@ function axis({ name, full, shown, log, whole, count, gap, place, empty, colours
     min: full[0],
     max: full[1],
     position: place,
+    inverse: rows.length > 0,
     axisLine: { show: true, onZero: false, lineStyle: { color: colours.line } },
     axisTick: { show: true, customValues: marks, lineStyle: { color: colours.line } },
     axisLabel: {
@@ -29,7 +30,7 @@ function axis({ name, full, shown, log, whole, count, gap, place, empty, colours
       show: !empty,
       customValues: marks,
       hideOverlap: true,
-      formatter: (v) => tickLabel(v, shown, log),
+      formatter: (v) => (rows.length ? (rows[v] ?? "") : tickLabel(v, shown, log)),
     },
     splitLine: { show: true, lineStyle: { color: colours.grid, width: 1 } },
     axisPointer: { label: { show: false }, lineStyle: { color: colours.soft, type: "solid", width: 1 } },
@@ -74,6 +75,26 @@ function bandSeries(item, points, colours) {
       params.dataIndex === 0
         ? { type: "group", children: runs(points).map((run) => shape(api, run)) }
         : { type: "group", children: [] },
+  };
+}
+
+function barSeries(item, points, colours) {
+  const fill = colourOf(item, colours);
+  return {
+    type: "custom",
+    clip: true,
+    z: 2,
+    silent: true,
+    data: points,
+    dimensions: ["begin", "low", "high", "end"],
+    encode: { x: [0, 3], y: [1, 2] },
+    renderItem: (params, api) => {
+      const [left, top] = api.coord([api.value(0), api.value(1)]);
+      const [right, bottom] = api.coord([api.value(3), api.value(2)]);
+      // a hairline of ground tells a bar from the next
+      const width = Math.max(0.7, right - left > 4 ? right - left - 1 : right - left);
+      return { type: "rect", shape: { x: left, y: top, width, height: bottom - top }, style: { fill }, silent: true };
+    },
   };
 }
 
@@ -122,7 +143,7 @@ function pointSeries(item, points, colours) {
   };
 }
 
-const seriesOf = { band: bandSeries, points: pointSeries, line: lineSeries, steps: lineSeries, marked: lineSeries };
+const seriesOf = { band: bandSeries, bars: barSeries, points: pointSeries, line: lineSeries, steps: lineSeries, marked: lineSeries };
 
 /**
  * chart: prepared; shown: [{item, points}]; full, window: {x, y} ranges; size: of the whole canvas; tooltip: ours.
@@ -165,6 +186,7 @@ export function option(chart, shown, full, window, [width, height], colours, too
     count: up,
     gap: 64,
     place: "left",
+    rows: chart.rows,
   };
   return {
     animation: false,

@@ -10,6 +10,7 @@ export function button(text, label, press) {
 
 const signs = {
   band: '<rect x="1" y="2" width="22" height="10" rx="2" fill="currentColor" opacity="0.3"/>',
+  bars: '<rect x="1" y="1" width="13" height="5" fill="currentColor"/><rect x="10" y="8" width="13" height="5" fill="currentColor"/>',
   points: '<circle cx="6" cy="7" r="3" fill="currentColor"/><circle cx="17" cy="7" r="3" fill="currentColor"/>',
   diamonds: '<path d="M6 3L10 7L6 11L2 7ZM17 3L21 7L17 11L13 7Z" fill="currentColor"/>',
   steps: '<path d="M1 11H9V3H17V8H23" fill="none" stroke="currentColor" stroke-width="2"/>',

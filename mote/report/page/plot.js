@@ -6,7 +6,7 @@ import { CanvasRenderer } from "echarts/renderers";
 import { margins, option } from "./option.js";
 import { extent } from "./prepare.js";
 import { formatted, padded, valueAt } from "./scale.js";
-import { thinBand, thinLine, thinPoints, thinTrack, visible } from "./thin.js";
+import { thinBand, thinLine, thinPoints, thinTrack, visible, visibleBars } from "./thin.js";
 import { theme } from "./theme.js";
 import { hitNear, hitsAt, tipElement } from "./tip.js";
 import { button, legend, swatch } from "./parts.js";
@@ -66,9 +66,11 @@ export class Plot {
   description() {
     const { title, x_label, y_label, items, xRange, yRange, log_x, log_y } = this.chart;
     const from = (range, log) => `${formatted(valueAt(range[0], log))} to ${formatted(valueAt(range[1], log))}`;
+    const rows = this.chart.rows;
+    const up = rows.length ? `rows ${rows.join(", ")}` : `${y_label || "y"} from ${from(yRange, log_y)}`;
     const ranges = this.empty
       ? "no data"
-      : `${x_label || "x"} from ${from(xRange, log_x)}, ${y_label || "y"} from ${from(yRange, log_y)}`;
+      : `${x_label || "x"} from ${from(xRange, log_x)}, ${up}`;
     return `${title}: plot of ${items.map((item) => item.name).join(", ") || "nothing"}; ${ranges}`;
   }
 
@@ -85,7 +87,7 @@ export class Plot {
   full() {
     const { chart } = this;
     const x = padded(chart.xRange, chart.plane ? 0.05 : 0.01);
-    const y = padded(chart.yRange, 0.06);
+    const y = chart.rows.length ? chart.yRange : padded(chart.yRange, 0.06);
     if (!chart.equal_axes) return { x, y };
     const area = this.area();
     const unit = Math.max((x[1] - x[0]) / area[0], (y[1] - y[0]) / area[1]);
@@ -97,11 +99,13 @@ export class Plot {
   windowIn(full, items) {
     const x = this.window?.x ?? full.x;
     if (this.chart.plane) return { x, y: this.window?.y ?? full.y };
+    if (this.chart.rows.length) return { x, y: full.y };
     const inside = (item) => (item.y ? [item.y] : [item.low, item.high]).map((v) => v.subarray(...visible(item.x, x)));
     return { x, y: padded(extent(items.flatMap(inside)), 0.06) };
   }
 
   points(item, window, area) {
+    if (item.mark === "bars") return visibleBars(item, window.x);
     if (item.mark === "band") return thinBand(item, window.x, area[0]);
     if (item.mark === "points") return thinPoints(item, window.x, window.y, area);
     return this.chart.plane ? thinTrack(item, window.x, window.y, area) : thinLine(item, window.x, area[0]);

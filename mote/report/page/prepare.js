@@ -41,10 +41,19 @@ function hiddenByLog(items, names, log) {
 
 const isTruth = (item) => item.name.trim().toLowerCase() === "truth";
 
+/** How much of its row a bar fills, to either side of the middle. */
+const barHalf = 0.36;
+
+/** Bars as bands of their rows: x where they begin, growing, and where they end. */
+function preparedBars(item) {
+  const { x, end, row } = sortedRows({ x: item.begin, end: item.end, row: item.row });
+  return { name: item.name, mark: "bars", x, end, row, low: row.map((r) => r - barHalf), high: row.map((r) => r + barHalf) };
+}
+
 /** Colour numbers: series in order (truth has its own, -1); a band takes that of the series its name starts with. */
-function numberColours(series, bands) {
+function numberColours(series, bands, bars) {
   let next = 0;
-  for (const item of series) item.colour = isTruth(item) ? -1 : next++;
+  for (const item of [...series, ...bars]) item.colour = isTruth(item) ? -1 : next++;
   for (const band of bands) {
     const owner = series.find((item) => item.colour >= 0 && item.name && band.name.startsWith(item.name));
     band.colour = owner ? owner.colour : next++;
@@ -76,16 +85,21 @@ export function prepare(chart) {
         item,
         sortedRows(item.mark === "band" ? { x: item.x, low: item.low, high: item.high } : { x: item.x, y: item.y }),
       );
-  numberColours(series, bands);
-  const items = [...bands, ...series];
+  const bars = (chart.bars ?? []).map(preparedBars);
+  const rows = chart.rows ?? [];
+  numberColours(series, bands, bars);
+  const items = [...bands, ...bars, ...series];
   return {
     ...chart,
     series,
     bands,
     items,
+    rows,
     plane,
-    xRange: extent(items.map((item) => item.x)),
-    yRange: extent(items.flatMap((item) => (item.y ? [item.y] : [item.low, item.high]))),
+    xRange: extent(items.flatMap((item) => (item.end ? [item.x, item.end] : [item.x]))),
+    yRange: rows.length
+      ? [-0.5, rows.length - 0.5]
+      : extent(items.flatMap((item) => (item.y ? [item.y] : [item.low, item.high]))),
     whole: !chart.log_x && items.every((item) => item.x.every((v) => Number.isInteger(v) || Number.isNaN(v))),
     hidden:
       hiddenByLog([...chart.series, ...chart.bands], ["x"], chart.log_x) +

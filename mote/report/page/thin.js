@@ -88,6 +88,14 @@ export function thinPoints({ x, y }, xWindow, yWindow, [width, height]) {
   return kept;
 }
 
+/** Bars: those that reach into the window, as [begin, low, high, end]. */
+export function visibleBars({ x, end, low, high }, [first, last]) {
+  const kept = [];
+  for (let i = 0; i < x.length; ++i)
+    if (x[i] <= last && end[i] >= first) kept.push([x[i], low[i], high[i], end[i]]);
+  return kept;
+}
+
 /** A track: points less than half a pixel from the last kept one are left out; gaps stay. */
 export function thinTrack({ x, y }, xWindow, yWindow, [width, height]) {
   const sx = width / (xWindow[1] - xWindow[0]);

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import test from "node:test";
 import { prepare } from "./prepare.js";
 import { formatted, padded, tickLabel, ticks } from "./scale.js";
-import { lowerBound, thinBand, thinLine, thinPoints, thinTrack, visible } from "./thin.js";
+import { lowerBound, thinBand, thinLine, thinPoints, thinTrack, visible, visibleBars } from "./thin.js";
 import { hitsAt } from "./tip.js";
 
 const n = 100000;
@@ -138,6 +138,33 @@ test("a band takes the colour of its series, truth has its own", () => {
   assert.deepEqual(
     bands.map((b) => b.colour),
     [1, 2],
+  );
+});
+
+test("bars are rows from the top, coloured by name, found by what they cover", () => {
+  const ready = prepare(
+    chart({
+      rows: ["a 1", "a 2"],
+      bars: [
+        { name: "a", begin: [3, 0], end: [9, 2], row: [1, 0] },
+        { name: "b", begin: [4], end: [5], row: [0] },
+      ],
+    }),
+  );
+  const [a, b] = ready.items;
+  assert.deepEqual([...a.x], [0, 3]);
+  assert.deepEqual([...a.end], [2, 9]);
+  assert.deepEqual([a.colour, b.colour], [0, 1]);
+  assert.deepEqual(ready.xRange, [0, 9]);
+  assert.deepEqual(ready.yRange, [-0.5, 1.5]);
+  assert.deepEqual(visibleBars(a, [2.5, 4]), [[3, a.low[1], a.high[1], 9]]);
+  assert.deepEqual(visibleBars(a, [1, 1]), [[0, a.low[0], a.high[0], 2]]);
+  assert.deepEqual(
+    hitsAt([a, b], 4.5, 0.1).map(({ item, i }) => [item.name, i]),
+    [
+      ["a", 1],
+      ["b", 0],
+    ],
   );
 });
 

@@ -9,8 +9,15 @@ function nearest(x, value, reach) {
   return candidates.sort((a, b) => Math.abs(x[a] - value) - Math.abs(x[b] - value))[0] ?? -1;
 }
 
-/** The items of a chart near x: [{item, i}], all at the x nearest to the pointer. */
+/** The bars under x: [{item, i}]. */
+const barsAt = (item, x) =>
+  Array.from(item.x.keys())
+    .filter((i) => item.x[i] <= x && x <= item.end[i])
+    .map((i) => ({ item, i }));
+
+/** The items of a chart near x: [{item, i}], all at the x nearest to the pointer; all bars under it. */
 export function hitsAt(items, x, reach) {
+  if (items.some((item) => item.end)) return items.filter((item) => item.end).flatMap((item) => barsAt(item, x));
   const hits = items.map((item) => ({ item, i: nearest(item.x, x, reach) })).filter(({ i }) => i >= 0);
   const distance = ({ item, i }) => Math.abs(item.x[i] - x);
   const least = Math.min(...hits.map(distance));
@@ -42,11 +49,13 @@ export function tipElement(chart, hits, swatch) {
   const x = (item, i) => formatted(valueAt(item.x[i], chart.log_x), 7);
   const y = (v) => formatted(valueAt(v, chart.log_y));
   const box = element("div", "", "tip");
-  box.append(element("div", `${chart.x_label || "x"} = ${x(first, at)}`, "tip-head"));
+  box.append(element("div", first.end ? chart.x_label : `${chart.x_label || "x"} = ${x(first, at)}`, "tip-head"));
+  const bar = (item, i) => `${x(item, i)} … ${formatted(valueAt(item.end[i], chart.log_x), 7)}`;
   for (const { item, i } of hits) {
     const row = element("div", "", "tip-row");
-    const value = item.y ? y(item.y[i]) : `${y(item.low[i])} … ${y(item.high[i])}`;
-    row.append(swatch(item), element("span", item.name), element("b", value));
+    const value = item.end ? bar(item, i) : item.y ? y(item.y[i]) : `${y(item.low[i])} … ${y(item.high[i])}`;
+    const name = item.end ? (chart.rows[item.row[i]] ?? item.name) : item.name;
+    row.append(swatch(item), element("span", name), element("b", value));
     box.append(row);
   }
   return box;
