@@ -58,6 +58,10 @@ nlohmann::json summary_json(const RunRecord& record, const Summary& summary) {
     json["acceptance"] = number(summary.acceptance);
     json["mean_burn_in"] = number(summary.mean_burn_in);
   }
+  if (record.plan.filter == FilterKind::kDistributed) {
+    json["messages_per_step"] = summary.traffic_per_step.messages;
+    json["bytes_per_step"] = summary.traffic_per_step.bytes;
+  }
   if (!summary.rmse.empty()) {
     json["rmse"] = nlohmann::json::object();
     for (std::size_t d = 0; d < summary.rmse.size(); ++d)
