@@ -5,7 +5,8 @@ namespace {
 
 void keep(Archive& archive, StepReport& report) {
   std::uint64_t burn_in = report.burn_in;
-  archive(report.log_evidence, report.ess, report.acceptance, burn_in, report.selected, report.collapsed);
+  archive(report.log_evidence, report.ess, report.acceptance, burn_in, report.selected, report.collapsed,
+          report.traffic.messages, report.traffic.bytes);
   report.burn_in = static_cast<std::size_t>(burn_in);
 }
 

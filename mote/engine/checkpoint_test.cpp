@@ -52,6 +52,23 @@ std::vector<Make> all_filters(OnCollapse c) {
               kModel, n, 2, {.groups = 4, .exchange = exchange, .exchange_count = 3, .carry_group_weights = carry},
               selection, c);
         });
+    for (const GroupResampling resampling : {GroupResampling::kGlobal, GroupResampling::kProportional,
+                                             GroupResampling::kNonProportional, GroupResampling::kChain})
+      all.push_back([=] {
+        return make_distributed<R>(kModel, n, 2,
+                                   {.groups = 4,
+                                    .resampling = resampling,
+                                    .exchange_count = 3,
+                                    .topology = Topology::kHypercube,
+                                    .exchange_every = 2},
+                                   selection, c);
+      });
+    all.push_back([=] {
+      return make_distributed<R>(
+          kModel, n, 2,
+          {.groups = 4, .exchange = Exchange::kSwap, .topology = Topology::kHypercube, .exchange_when = 0.9}, selection,
+          c);
+    });
   }
   for (const ChainOptions& chain :
        {ChainOptions{}, ChainOptions{.draws = 500, .burn_in = std::nullopt, .chains = 3, .parents = Parents::kPermuted},

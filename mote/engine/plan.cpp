@@ -1,10 +1,14 @@
 #include "mote/engine/plan.hpp"
 
+#include <algorithm>
+#include <bit>
+
 #include <fmt/format.h>
 
 #include "mote/base/refusal.hpp"
 #include "mote/engine/team.hpp"
 #include "mote/filter/particles.hpp"
+#include "mote/filter/topology.hpp"
 
 namespace mote {
 namespace {
@@ -34,11 +38,21 @@ void check_groups(const Plan& plan, const std::string& where) {
   require(g.groups >= 1 && g.groups <= plan.particles, where, "--groups",
           fmt::format("an integer from 1 to the number of particles ({})", plan.particles), std::to_string(g.groups),
           "Pass --groups 1.");
-  if (g.exchange == Exchange::kNone) return;
+  const bool after = g.resampling == GroupResampling::kNonProportional;
+  if (!after && !g.exchanges_before()) return;
+  require(g.topology != Topology::kHypercube || std::has_single_bit(g.groups), where, "--topology hypercube",
+          "a power of two for --groups", std::to_string(g.groups),
+          fmt::format("Pass --groups {}, or --topology torus.", std::bit_floor(g.groups)));
+  require(g.exchange_every >= 1, where, "--exchange-every", "an integer of at least 1",
+          std::to_string(g.exchange_every), "Pass --exchange-every 1.");
+  require(g.exchange_when >= 0 && g.exchange_when <= 1, where, "--exchange-when", "a number from 0 to 1",
+          fmt::format("{}", g.exchange_when), "Pass --exchange-when 0.5.");
   const std::size_t smallest = plan.particles / g.groups;
-  const std::size_t most = g.exchange == Exchange::kReplace ? smallest / 2 : smallest;
+  const std::size_t others = std::max<std::size_t>(1, degree(g.topology, g.groups));
+  const std::size_t most = (g.exchange == Exchange::kReplace && !after ? smallest / 2 : smallest) / others;
   require(g.exchange_count >= 1 && g.exchange_count <= most, where, "--exchange-count",
-          fmt::format("an integer from 1 to {} (groups of {} particles)", most, smallest),
+          fmt::format("an integer from 1 to {} (groups of {} particles{})", most, smallest,
+                      others == 1 ? "" : fmt::format(", {} neighbours", others)),
           std::to_string(g.exchange_count), "Pass --exchange-count 1, or fewer groups.");
 }
 

@@ -84,6 +84,32 @@ TEST(Plan, GroupsAreCheckedForTheDistributedFilter) {
   EXPECT_TRUE(names(of(8, Exchange::kReplace, 7), "--exchange-count"));
 }
 
+TEST(Plan, NeighboursMustFitTheGroups) {
+  const auto of = [](std::size_t count, const GroupOptions& groups) {
+    return refusal_of(FilterKind::kDistributed, [&](Plan& p) {
+      p.particles = 16 * 20;
+      p.groups = groups;
+      p.groups.groups = count;
+    });
+  };
+  const GroupOptions swap{.exchange = Exchange::kSwap, .exchange_count = 5, .topology = Topology::kTorus};
+  EXPECT_EQ(of(16, swap), "") << "five for each of four neighbours are all 20";
+  GroupOptions more = swap;
+  more.exchange_count = 6;
+  EXPECT_TRUE(names(of(16, more), "--exchange-count"));
+  EXPECT_TRUE(of(16, more).find("from 1 to 5 (groups of 20 particles, 4 neighbours)") != std::string::npos);
+  more.resampling = GroupResampling::kNonProportional;
+  more.exchange = Exchange::kNone;
+  EXPECT_TRUE(names(of(16, more), "--exchange-count")) << "RNA exchanges, too";
+  more.resampling = GroupResampling::kProportional;
+  EXPECT_EQ(of(16, more), "") << "RPA has no neighbours";
+  GroupOptions cube = swap;
+  cube.topology = Topology::kHypercube;
+  EXPECT_EQ(of(16, cube), "");
+  EXPECT_TRUE(names(of(12, cube), "--topology hypercube"));
+  EXPECT_NE(of(12, cube).find("got 12. Pass --groups 8, or --topology torus."), std::string::npos) << of(12, cube);
+}
+
 TEST(Plan, FiltersHaveTheirCommandLineNames) {
   EXPECT_EQ(name_of(FilterKind::kSisr), "sisr");
   EXPECT_EQ(name_of(FilterKind::kImh), "imh");

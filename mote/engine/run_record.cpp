@@ -71,14 +71,18 @@ Summary summarise(const RunRecord& record, const Truth* truth) {
   std::vector<double> ess;
   std::vector<double> acceptance;
   std::vector<double> burn_in;
+  Traffic traffic;
   for (const EstimateRow& row : record.rows) {
     summary.log_evidence += row.report.log_evidence;
     summary.collapses += row.report.collapsed ? 1 : 0;
+    traffic += row.report.traffic;
     ess.push_back(row.report.ess);
     acceptance.push_back(row.report.acceptance);
     if (!std::isnan(row.report.acceptance)) burn_in.push_back(static_cast<double>(row.report.burn_in));
   }
   summary.mean_ess = mean_of(ess);
+  const auto steps = static_cast<double>(record.rows.size());
+  if (steps > 0) summary.traffic_per_step = {traffic.messages / steps, traffic.bytes / steps};
   summary.acceptance = mean_of(acceptance);
   summary.mean_burn_in = mean_of(burn_in);
   const double particle_steps =

@@ -44,8 +44,9 @@ struct PositionError {
 struct Summary {
   double log_evidence;  ///< sum of the increments; -infinity after a collapse
   double mean_ess;
-  double acceptance;    ///< mean over steps with a chain; NaN without
-  double mean_burn_in;  ///< mean N_b over steps with a chain; NaN without
+  double acceptance;         ///< mean over steps with a chain; NaN without
+  double mean_burn_in;       ///< mean N_b over steps with a chain; NaN without
+  Traffic traffic_per_step;  ///< mean over the estimated steps
   std::size_t collapses;
   double ns_per_particle_step;
   std::vector<double> rmse;                     ///< by state, NaN where the truth does not say; empty without truth

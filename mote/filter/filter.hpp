@@ -5,6 +5,7 @@
 
 #include "mote/base/archive.hpp"
 #include "mote/filter/estimate.hpp"
+#include "mote/filter/traffic.hpp"
 #include "mote/model/model.hpp"
 
 namespace mote {
@@ -17,6 +18,7 @@ struct StepReport {
   std::size_t burn_in = 0;   ///< N_b that the chains used
   bool selected = false;     ///< resampled, or a chain ran
   bool collapsed = false;    ///< all weights were zero
+  Traffic traffic = {};      ///< what the groups of a distributed filter sent each other
 };
 
 /// A particle filter in motion. A step is update() – move and weigh –, then estimates from weighted(), then select().

@@ -47,16 +47,41 @@ struct ChainOptions {
   ParentWeights parent_weights = ParentWeights::kUniform;  ///< auxiliary filter only
 };
 
+/// How groups hand particles on; docs/filters.md (F23).
 enum class Exchange { kNone, kAppend, kReplace, kSwap };
+/// Which groups are neighbours; docs/filters.md (F24a).
+enum class Topology { kRing, kBidirectional, kTorus, kHypercube };
 
-/// The groups of a distributed filter, on a ring.
+/// Over which particles a distributed filter selects.
+enum class GroupResampling {
+  kLocal,            ///< inside each group
+  kGlobal,           ///< over all particles: SISR
+  kProportional,     ///< RPA (Bolic, Djuric & Hong 2005): each group's number of children first, then inside it
+  kNonProportional,  ///< RNA (the same): inside each group, then a few particles change places with the neighbours'
+  kChain,            ///< inside each group, by a Metropolis chain: IMH whose parents are the group's own
+};
+
+/// The groups of a distributed filter.
 struct GroupOptions {
   std::size_t groups = 1;  ///< K
-  bool global = false;     ///< resample over all particles instead of inside each group
-  Exchange exchange = Exchange::kNone;
-  std::size_t exchange_count = 1;  ///< M, the heaviest particles sent to the next group
+  GroupResampling resampling = GroupResampling::kLocal;
+  Exchange exchange = Exchange::kNone;  ///< before local selection
+  std::size_t exchange_count = 1;       ///< M, the particles sent to each neighbour
+  Topology topology = Topology::kRing;
+  std::size_t exchange_every = 1;  ///< exchange at the steps t that are multiples of it
+  double exchange_when = 1;        ///< and only when the effective number of groups is <= this share of K
   bool carry_group_weights =
       true;  ///< false: every group restarts with weight N_k / N after resampling, as PPF's Alg. 5 does
+
+  /// Whether groups hand particles on to their neighbours.
+  bool exchanges() const {
+    return groups > 1 && (resampling == GroupResampling::kNonProportional || exchanges_before());
+  }
+  /// Whether they do before they select.
+  bool exchanges_before() const {
+    return exchange != Exchange::kNone &&
+           (resampling == GroupResampling::kLocal || resampling == GroupResampling::kChain);
+  }
 };
 
 }  // namespace mote

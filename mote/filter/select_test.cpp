@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "mote/filter/groups.hpp"
+
 namespace mote {
 namespace {
 
@@ -111,9 +113,9 @@ TEST(Select, WholeSelectorWaitsForTheThreshold) {
   options.ess_threshold = 0.5;
   WholeSelector<double> selector(options);
   Cloud<double> cloud = uneven(20);
-  EXPECT_FALSE(selector.select(cloud, 10.1, Draws{1, 1}));
+  EXPECT_FALSE(selector.select(cloud, 10.1, Draws{1, 1}).any);
   EXPECT_EQ(cloud.log_weights, uneven(20).log_weights);
-  EXPECT_TRUE(selector.select(cloud, 10.0, Draws{1, 1}));
+  EXPECT_TRUE(selector.select(cloud, 10.0, Draws{1, 1}).any);
   EXPECT_NEAR(integrals(cloud).one, 1, 1e-12);
 }
 
@@ -131,22 +133,36 @@ double worst_z_of_groups(const GroupOptions& groups, double exponent, double thr
   options.exponent = exponent;
   options.ess_threshold = threshold;
   return worst_z(40, 4000, [&](auto& cloud, const Draws& draws) {
-    GroupSelector<double>(options, groups).select(cloud, 0, draws);
+    make_group_selector<double>(options, groups)->select(cloud, 0, draws);
   });
 }
 
-// claim    groups that carry their weights keep E[sum w f], with swap, append or no exchange
+// claim    groups that carry their weights keep E[sum w f], with swap, append or no exchange, on every topology, and so
+//          do RNA and RPA
 // referee  the sums before selection
-// design   4000 selections of 40 particles in groups of 14 13 13, seeds 1..4000
-// risk     1e-6 over the 18 cases (|z| < 5.4); the twins (group weights reset, and replace) must be caught
+// design   4000 selections of 40 particles in groups of 14 13 13 (two of 20 for the hypercube), seeds 1..4000
+// risk     1e-6 over the 60 integrals (|z| < 5.7); the twins (group weights reset, and replace) must be caught
 TEST(Select, GroupsKeepExpectations) {
   for (const Exchange exchange : {Exchange::kNone, Exchange::kSwap, Exchange::kAppend})
     for (const double exponent : {1.0, 0.5})
       for (const double threshold : {1.0, 0.7, 0.0})
-        EXPECT_LT(worst_z_of_groups(groups_of(exchange), exponent, threshold), 5.4)
+        EXPECT_LT(worst_z_of_groups(groups_of(exchange), exponent, threshold), 5.7)
             << int(exchange) << ' ' << exponent << ' ' << threshold;
-  EXPECT_GT(worst_z_of_groups(groups_of(Exchange::kNone, false), 1, 1), 5.4) << "PPF's reset is biased";
-  EXPECT_GT(worst_z_of_groups(groups_of(Exchange::kReplace), 1, 1), 5.4) << "replace loses weight";
+  for (const Exchange exchange : {Exchange::kSwap, Exchange::kAppend})
+    for (const Topology topology : {Topology::kBidirectional, Topology::kTorus, Topology::kHypercube}) {
+      GroupOptions groups = groups_of(exchange);
+      groups.topology = topology;
+      if (topology == Topology::kHypercube) groups.groups = 2;
+      EXPECT_LT(worst_z_of_groups(groups, 1, 1), 5.7) << int(exchange) << ' ' << int(topology);
+    }
+  for (const GroupResampling resampling : {GroupResampling::kProportional, GroupResampling::kNonProportional})
+    for (const double exponent : {1.0, 0.5}) {
+      GroupOptions groups = groups_of(Exchange::kNone);
+      groups.resampling = resampling;
+      EXPECT_LT(worst_z_of_groups(groups, exponent, 1), 5.7) << int(resampling) << ' ' << exponent;
+    }
+  EXPECT_GT(worst_z_of_groups(groups_of(Exchange::kNone, false), 1, 1), 5.7) << "PPF's reset is biased";
+  EXPECT_GT(worst_z_of_groups(groups_of(Exchange::kReplace), 1, 1), 5.7) << "replace loses weight";
 }
 
 TEST(Select, AGroupWithoutWeightWaits) {
@@ -154,7 +170,7 @@ TEST(Select, AGroupWithoutWeightWaits) {
   for (std::size_t i = 4; i < 8; ++i) cloud.log_weights[i] = -kInfinity;
   GroupOptions groups = groups_of(Exchange::kNone);
   GroupSelector<double> selector({}, groups);
-  EXPECT_TRUE(selector.select(cloud, 0, Draws{1, 1}));
+  EXPECT_TRUE(selector.select(cloud, 0, Draws{1, 1}).any);
   for (std::size_t i = 4; i < 8; ++i) EXPECT_EQ(cloud.x.component(0)[i], static_cast<double>(i));
   // fresh weights after a reset: each group its share, the empty one too
   groups.carry_group_weights = false;

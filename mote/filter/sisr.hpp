@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "mote/filter/groups.hpp"
 #include "mote/filter/settle.hpp"
 #include "mote/filter/stages.hpp"
 
@@ -55,7 +56,9 @@ class ImportanceFilter final : public Filter {
   }
 
   void select(Step t, StepReport& report) override {
-    report.selected = selector_->select(cloud_, report.ess, draws(t));
+    const Selected done = selector_->select(cloud_, report.ess, draws(t));
+    report.selected = done.any;
+    report.traffic = done.traffic;
   }
 
   WeightedSet weighted() const override { return {&cloud_.x, cloud_.weights, total_}; }
@@ -114,14 +117,13 @@ std::unique_ptr<Filter> make_sisr(M model, std::size_t particles, std::uint64_t 
       std::move(model), particles, seed, std::make_unique<WholeSelector<R>>(selection), on_collapse, runner);
 }
 
-/// The distributed filter: K groups on a ring, selection inside groups or over all (then it is SISR).
+/// The distributed filter: K groups, selection inside groups or over all.
 template <class R = double, class G = Prior, Model M>
 std::unique_ptr<Filter> make_distributed(M model, std::size_t particles, std::uint64_t seed, const GroupOptions& groups,
                                          const SelectionOptions& selection = {},
                                          OnCollapse on_collapse = OnCollapse::kStop) {
-  if (groups.global) return make_sisr<R, G>(std::move(model), particles, seed, selection, on_collapse);
-  return std::make_unique<ImportanceFilter<M, R, G>>(
-      std::move(model), particles, seed, std::make_unique<GroupSelector<R>>(selection, groups), on_collapse);
+  return std::make_unique<ImportanceFilter<M, R, G>>(std::move(model), particles, seed,
+                                                     make_group_selector<R>(selection, groups), on_collapse);
 }
 
 }  // namespace mote

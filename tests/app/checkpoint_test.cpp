@@ -52,16 +52,16 @@ TEST_P(Broken, ByKillsAtAnyTime) {
   expect_whole();
 }
 
-INSTANTIATE_TEST_SUITE_P(Checkpoint, Broken,
-                         ::testing::Values("-n 3000", "-n 3000 --precision float --ess-threshold 0.5",
-                                           "-n 500 --resampler residual --selection-exponent 0.5",
-                                           "-n 300 --engine reference", "-n 2000 --filter imh --improved",
-                                           "-n 300 --filter imh --burn-in auto",
-                                           "-n 1000 --filter auxiliary --engine simd --chains 4",
-                                           "-n 300 --filter auxiliary --parent-weights lookahead",
-                                           "-n 300 --filter distributed --groups 4 --exchange swap",
-                                           "-n 300 --filter sqmc", "-n 300 --filter ekf", "-n 300 --filter ukf",
-                                           "-n 300 --proposal guided --on-collapse reset"));
+INSTANTIATE_TEST_SUITE_P(
+    Checkpoint, Broken,
+    ::testing::Values("-n 3000", "-n 3000 --precision float --ess-threshold 0.5",
+                      "-n 500 --resampler residual --selection-exponent 0.5", "-n 300 --engine reference",
+                      "-n 2000 --filter imh --improved", "-n 300 --filter imh --burn-in auto",
+                      "-n 1000 --filter auxiliary --engine simd --chains 4",
+                      "-n 300 --filter auxiliary --parent-weights lookahead",
+                      "-n 300 --filter distributed --groups 4 --exchange swap --topology hypercube",
+                      "-n 300 --filter sqmc", "-n 300 --filter ekf", "-n 300 --filter ukf",
+                      "-n 300 --proposal guided --on-collapse reset"));
 
 class Checkpoints : public Broken {};
 

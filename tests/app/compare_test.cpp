@@ -42,6 +42,19 @@ TEST(Compare, PrintsAnAlignedTable) {
   EXPECT_TRUE(lines[5].starts_with("imh --chains 4  100 "));
 }
 
+TEST(Compare, ShowsWhatGroupsSend) {
+  const Scratch scratch;
+  const Ended ended = scratch.shell(
+      "mote compare local-level --steps 9 --recordings 1 --repeats 2 -n 64 --json r.json "
+      "--filters 'sisr; distributed --groups 4 --exchange swap --exchange-every 3'");
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_TRUE(std::regex_search(lines_of(ended.out)[1], std::regex("its sd +messages +bytes +ns +s$"))) << ended.out;
+  const Json json = Json::parse(scratch.read("r.json"));
+  EXPECT_EQ(json["results"][0]["bytes_per_step"], 0);
+  EXPECT_DOUBLE_EQ(json["results"][1]["messages_per_step"], 4.0 / 3);
+  EXPECT_DOUBLE_EQ(json["results"][1]["bytes_per_step"], 4 * 16.0 / 3);
+}
+
 TEST(Compare, WritesTheSameNumbersEverywhereAndEveryTime) {
   const Scratch scratch;
   const std::string line = kSmall + "--filters 'sisr; sisr; imh' --out t.csv --json r.json --report r.html";

@@ -95,6 +95,24 @@ TEST(Summary, NamesNothingThatIsNotThere) {
                                    "log_evidence", "wall_seconds", "ns_per_particle_step", "mean_ess", "collapses"}));
 }
 
+TEST(Summary, SaysWhatGroupsSend) {
+  const Scratch scratch;
+  ASSERT_EQ(scratch.shell("mote simulate bearings --steps 6 --out d.csv").code, 0);
+  const auto summary = [&](const std::string& options) {
+    EXPECT_EQ(
+        scratch.shell("mote run bearings --data d.csv -n 64 --filter distributed " + options + " --summary s.json")
+            .code,
+        0);
+    return Json::parse(scratch.read("s.json"));
+  };
+  const Json torus = summary("--groups 16 --exchange append --topology torus --exchange-every 2");
+  EXPECT_EQ(torus["messages_per_step"], 32) << "64 messages at every other step";
+  EXPECT_EQ(torus["bytes_per_step"], 32 * 40);
+  EXPECT_EQ(summary("--groups 16 --exchange append --precision float")["bytes_per_step"], 16 * 24);
+  EXPECT_EQ(summary("--groups 1 --group-resampling rpa")["bytes_per_step"], 0);
+  EXPECT_GE(summary("--groups 16 --group-resampling rpa")["bytes_per_step"], 16 * 15 * 8);
+}
+
 // Even after a collapse, whose evidence is -inf, the summary is JSON.
 TEST(Summary, IsJsonAfterACollapse) {
   const Scratch scratch;
@@ -250,7 +268,7 @@ TEST(Help, NamesTheOptionsOfTheDoor) {
         "--chain-start HOW", "--on-collapse WHAT",   "--engine NAME",      "--threads K",      "--precision TYPE",
         "--groups K",        "--exchange HOW",       "--exchange-count M", "--proposers R",    "--weighers R",
         "--checkpoint FILE", "--checkpoint-every S", "--budget TIME",      "--estimate F",     "--dump-particles FILE",
-        "--improved"})
+        "--improved",        "--topology NAME",      "--exchange-every M", "--exchange-when X"})
     EXPECT_NE(help.find("\n  " + option), std::string::npos) << option;
   EXPECT_EQ(scratch.shell("mote --help").code, 0);
   EXPECT_EQ(scratch.shell("mote --version").code, 0);

@@ -67,9 +67,8 @@ TEST(Evidence, CarriedWeightsSurviveAnUnobservedStep) {
 TEST(Evidence, OfGroupsThatForgetWeightIsBiased) {
   const auto recording = local_level_recording();
   const double exact = referee::log_evidence(referee::kalman(local_level(), recording));
-  for (const auto& [name, groups] :
-       {std::pair{"replace", groups_of(8, Exchange::kReplace)},
-        std::pair{"restarted group weights", groups_of(8, Exchange::kNone, false, false)}}) {
+  for (const auto& [name, groups] : {std::pair{"replace", groups_of(8, Exchange::kReplace)},
+                                     std::pair{"restarted group weights", groups_of(8, Exchange::kNone, false)}}) {
     const Maker maker{name, [groups = groups](std::size_t n, std::uint64_t seed) {
                         return make_distributed(local_level(), n, seed, groups);
                       }};

@@ -5,14 +5,16 @@
 
 namespace mote::statistics {
 
-inline GroupOptions groups_of(std::size_t groups, Exchange exchange, bool global = false, bool carry = true) {
-  GroupOptions options;
-  options.groups = groups;
-  options.global = global;
-  options.exchange = exchange;
-  options.exchange_count = 2;
-  options.carry_group_weights = carry;
-  return options;
+inline GroupOptions groups_of(std::size_t groups, Exchange exchange, bool carry = true) {
+  return {.groups = groups, .exchange = exchange, .exchange_count = 2, .carry_group_weights = carry};
+}
+inline GroupOptions groups_of(std::size_t groups, GroupResampling resampling) {
+  return {.groups = groups, .resampling = resampling, .exchange_count = 2};
+}
+/// The same on another topology than the ring.
+inline GroupOptions on(Topology topology, GroupOptions groups) {
+  groups.topology = topology;
+  return groups;
 }
 
 /// The eight chains of `--improved`.
@@ -53,7 +55,21 @@ std::vector<Maker> unbiased_filters(const M& model, bool every_scheme) {
   distributed("swap, ess 0.5", groups_of(8, Exchange::kSwap), {.ess_threshold = 0.5});
   distributed("append", groups_of(8, Exchange::kAppend));
   distributed("append, exponent 0.5", groups_of(8, Exchange::kAppend), {.exponent = 0.5});
-  distributed("global", groups_of(8, Exchange::kNone, true));
+  distributed("swap, both ways", on(Topology::kBidirectional, groups_of(8, Exchange::kSwap)));
+  distributed("append, torus", on(Topology::kTorus, groups_of(8, Exchange::kAppend)));
+  distributed("swap, hypercube", on(Topology::kHypercube, groups_of(8, Exchange::kSwap)));
+  GroupOptions now_and_then = groups_of(8, Exchange::kAppend);
+  now_and_then.exchange_every = 3;
+  distributed("append, every third step", now_and_then);
+  GroupOptions when_needed = groups_of(8, Exchange::kSwap);
+  when_needed.exchange_when = 0.7;
+  distributed("swap, when weights diverge", when_needed);
+  distributed("rna", groups_of(8, GroupResampling::kNonProportional));
+  distributed("rna, hypercube", on(Topology::kHypercube, groups_of(8, GroupResampling::kNonProportional)));
+  distributed("rpa", groups_of(8, GroupResampling::kProportional));
+  distributed("rpa, exponent 0.5, ess 0.5", groups_of(8, GroupResampling::kProportional),
+              {.ess_threshold = 0.5, .exponent = 0.5});
+  distributed("global", groups_of(8, GroupResampling::kGlobal));
   all.push_back({"sqmc", [=](std::size_t n, std::uint64_t seed) { return make_sqmc(model, n, seed); }});
   all.push_back({"sqmc, float", [=](std::size_t n, std::uint64_t seed) { return make_sqmc<float>(model, n, seed); }});
   all.push_back(
@@ -101,6 +117,11 @@ std::vector<Maker> consistent_filters(const M& model) {
   const Scheme* metropolis = find_scheme("metropolis");
   all.push_back({"sisr, metropolis",
                  [=](std::size_t n, std::uint64_t seed) { return make_sisr(model, n, seed, {.scheme = metropolis}); }});
+  all.push_back({"distributed, chain, append", [=](std::size_t n, std::uint64_t seed) {
+                   GroupOptions groups = groups_of(8, Exchange::kAppend);
+                   groups.resampling = GroupResampling::kChain;
+                   return make_distributed(model, n, seed, groups);
+                 }});
   for (Maker& maker : all) maker.bias = std::max(maker.bias, 0.02);
   return all;
 }

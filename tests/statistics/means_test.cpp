@@ -98,8 +98,8 @@ TEST(Means, OfGroupsThatForgetWeightAreNear) {
   const double exact = referee::kalman(local_level(), recording).back().mean(0);
   for (const auto& [name, groups] :
        {std::pair{"replace", groups_of(8, Exchange::kReplace)},
-        std::pair{"restarted group weights", groups_of(8, Exchange::kNone, false, false)},
-        std::pair{"restarted group weights, swap", groups_of(8, Exchange::kSwap, false, false)}}) {
+        std::pair{"restarted group weights", groups_of(8, Exchange::kNone, false)},
+        std::pair{"restarted group weights, swap", groups_of(8, Exchange::kSwap, false)}}) {
     Sample means;
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
       const auto filter = make_distributed(local_level(), 1000, seed, groups);

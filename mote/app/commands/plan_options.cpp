@@ -90,9 +90,19 @@ std::vector<OptionSpec> plan_options() {
        "auxiliary: g(k) uniform, or lookahead = half by the likelihood of the moved parent", chain},
       {"--improved", "", "", "short for --chains 8 --parents permuted --chain-start weighted", chain},
       {"--groups", "K", "1", "groups of particles, from 1 to N", groups},
-      {"--group-resampling", "WHERE", "local", "local = inside each group, global = over all particles", groups},
-      {"--exchange", "HOW", "none", "none, append, replace or swap the heaviest particles with the next group", groups},
-      {"--exchange-count", "M", "1", "particles that each group sends", groups},
+      {"--group-resampling", "WHERE", "local",
+       "local = inside each group, global = over all particles, rpa = each group's number of children first, rna = "
+       "local, then particles change places with the neighbours', chain = local, by a Metropolis chain",
+       groups},
+      {"--exchange", "HOW", "none",
+       "none, append, replace or swap the heaviest particles with the neighbours, before local resampling", groups},
+      {"--exchange-count", "M", "1", "particles that each group sends to each neighbour", groups},
+      {"--topology", "NAME", "ring",
+       "neighbours: ring (the next), bidirectional (both), torus (four), hypercube (one dimension after another)",
+       groups},
+      {"--exchange-every", "M", "1", "exchange at the steps that are multiples of M", groups},
+      {"--exchange-when", "X", "1",
+       "exchange only when the effective number of groups is at most X K, X from 0 to 1; 1 = whenever due", groups},
       {"--group-weights", "HOW", "carried",
        "carried = properly weighted; reset = every group counts alike after resampling (PPF)", groups},
       {"--engine", "NAME", "fastest",
@@ -123,9 +133,14 @@ Plan plan_from(const Arguments& arguments) {
   plan.selection.exponent = arguments.number("--selection-exponent", 1e-6, 1);
   plan.chain = chain_from(arguments, plan.filter);
   plan.groups.groups = static_cast<std::size_t>(arguments.integer("--groups", 1, kMost));
-  plan.groups.global = arguments.choice("--group-resampling", {"local", "global"}) == 1;
+  plan.groups.resampling =
+      static_cast<GroupResampling>(arguments.choice("--group-resampling", {"local", "global", "rpa", "rna", "chain"}));
   plan.groups.exchange = static_cast<Exchange>(arguments.choice("--exchange", {"none", "append", "replace", "swap"}));
   plan.groups.exchange_count = static_cast<std::size_t>(arguments.integer("--exchange-count", 1, kMost));
+  plan.groups.topology =
+      static_cast<Topology>(arguments.choice("--topology", {"ring", "bidirectional", "torus", "hypercube"}));
+  plan.groups.exchange_every = static_cast<std::size_t>(arguments.integer("--exchange-every", 1, kMost));
+  plan.groups.exchange_when = arguments.number("--exchange-when", 0, 1);
   plan.groups.carry_group_weights = arguments.choice("--group-weights", {"carried", "reset"}) == 0;
   plan.engine = static_cast<Engine>(arguments.choice("--engine", kEngines));
   plan.threads = arguments.given("--threads")  ? static_cast<std::size_t>(arguments.integer("--threads", 1, 4096))
@@ -156,14 +171,25 @@ std::vector<std::string> notes_on_unread(const Arguments& arguments, const Plan&
   note(is_gaussian(plan.filter), {"--proposal"}, filter + " proposes nothing");
   note(is_gaussian(plan.filter), {"--seed"}, filter + " draws nothing");
   note(is_gaussian(plan.filter), {"--precision"}, filter + " computes in double");
-  note(!groups, {"--groups", "--group-resampling", "--exchange", "--exchange-count", "--group-weights"},
-       filter + " has no groups");
-  note(groups && plan.groups.global, {"--exchange", "--exchange-count", "--group-weights"},
-       "--group-resampling global knows no groups");
-  note(groups && !plan.groups.global && plan.groups.exchange == Exchange::kNone, {"--exchange-count"},
-       "--exchange none exchanges nothing");
   note(plan.chain.parent_weights == ParentWeights::kLookahead, {"--parents"},
        "--parent-weights lookahead draws them by weight");
+  const std::vector<std::string> how{"--exchange-count", "--topology", "--exchange-every", "--exchange-when"};
+  const auto also = [&](std::vector<std::string> options) {
+    options.insert(options.end(), how.begin(), how.end());
+    return options;
+  };
+  note(!groups, also({"--groups", "--group-resampling", "--exchange", "--group-weights"}), filter + " has no groups");
+  if (!groups) return notes;
+  const std::string where = "--group-resampling " + arguments.text("--group-resampling");
+  const GroupResampling resampling = plan.groups.resampling;
+  note(resampling == GroupResampling::kGlobal || resampling == GroupResampling::kProportional,
+       also({"--exchange", "--group-weights"}), where + " selects over all groups");
+  note(resampling == GroupResampling::kNonProportional, {"--exchange", "--group-weights"},
+       where + " exchanges and carries weights by itself");
+  note(resampling == GroupResampling::kChain, {"--resampler", "--selection-exponent"}, where + " runs a chain");
+  note(plan.groups.exchange == Exchange::kNone &&
+           (resampling == GroupResampling::kLocal || resampling == GroupResampling::kChain),
+       how, "--exchange none exchanges nothing");
   return notes;
 }
 

@@ -41,6 +41,14 @@ TEST(Plan, TakesEveryWordOfEveryChoice) {
   for (const Scheme& scheme : schemes())
     EXPECT_EQ(plan({"--resampler", std::string(scheme.name)}).selection.scheme->name, scheme.name);
   EXPECT_EQ(plan({"--exchange", "replace", "--filter", "distributed"}).groups.exchange, Exchange::kReplace);
+  const std::vector<std::string> topologies{"ring", "bidirectional", "torus", "hypercube"};
+  for (std::size_t i = 0; i < topologies.size(); ++i)
+    EXPECT_EQ(plan({"--topology", topologies[i]}).groups.topology, static_cast<Topology>(i));
+  EXPECT_EQ(plan({"--group-resampling", "rpa"}).groups.resampling, GroupResampling::kProportional);
+  EXPECT_EQ(plan({"--group-resampling", "rna"}).groups.resampling, GroupResampling::kNonProportional);
+  EXPECT_EQ(plan({"--group-resampling", "chain"}).groups.resampling, GroupResampling::kChain);
+  EXPECT_EQ(plan({"--exchange-every", "4"}).groups.exchange_every, 4U);
+  EXPECT_EQ(plan({"--exchange-when", "0.5"}).groups.exchange_when, 0.5);
   EXPECT_EQ(plan({"--precision", "float"}).precision, Precision::kFloat);
   EXPECT_EQ(plan({"--on-collapse", "reset"}).on_collapse, OnCollapse::kReset);
   EXPECT_FALSE(plan({"--filter", "imh", "--burn-in", "auto"}).chain.burn_in);
@@ -66,6 +74,10 @@ TEST(NotesOnUnread, TellEveryOptionThatHasNoSay) {
   EXPECT_EQ(notes({"--filter", "imh", "--chains", "2", "--burn-in", "3"}), 0U);
   EXPECT_EQ(notes({"--filter", "imh", "--resampler", "alias", "--ess-threshold", "0.5"}), 2U);
   EXPECT_EQ(notes({"--filter", "distributed", "--groups", "4", "--exchange", "swap", "--exchange-count", "2"}), 0U);
+  EXPECT_EQ(notes({"--filter", "distributed", "--groups", "4", "--topology", "torus", "--exchange-every", "2"}), 2U);
+  EXPECT_EQ(notes({"--filter", "distributed", "--group-resampling", "rpa", "--exchange-when", "0.5"}), 1U);
+  EXPECT_EQ(notes({"--filter", "distributed", "--group-resampling", "rna", "--exchange-count", "2"}), 0U);
+  EXPECT_EQ(notes({"--filter", "distributed", "--group-resampling", "rna", "--exchange", "swap"}), 1U);
   EXPECT_EQ(notes({"--filter", "sqmc", "--resampler", "alias", "--ess-threshold", "0.5", "--chains", "2"}), 3U);
   EXPECT_EQ(notes({"--filter", "ekf", "--resampler", "alias", "--seed", "2", "--precision", "float"}), 3U);
   EXPECT_EQ(notes({"--filter", "ukf", "--proposal", "prior", "-n", "50", "--on-collapse", "keep"}), 1U);

@@ -69,6 +69,8 @@ Figures summed(const Design& design, const Runs& runs, const Runs& first, std::o
   f.log_evidence_sd = pooled_deviation(evidence, design.repeats);
   f.seconds = median_of_finished(runs, &Measured::seconds);
   f.ns_per_particle_step = median_of_finished(runs, &Measured::ns_per_particle_step);
+  f.messages_per_step = median_of_finished(runs, &Measured::messages_per_step);
+  f.bytes_per_step = median_of_finished(runs, &Measured::bytes_per_step);
   return f;
 }
 

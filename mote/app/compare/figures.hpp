@@ -24,8 +24,9 @@ struct Figures {
   double coverage;                  ///< share of steps inside the 95 % region; NaN without truth
   std::size_t collapsed;            ///< runs
   std::optional<std::size_t> lost;  ///< runs that collapsed or end further from the truth than the bound
-  double log_evidence, log_evidence_sd;  ///< mean over runs; deviation over repeats, pooled over recordings
-  double seconds, ns_per_particle_step;  ///< medians over the runs that did not collapse
+  double log_evidence, log_evidence_sd;      ///< mean over runs; deviation over repeats, pooled over recordings
+  double seconds, ns_per_particle_step;      ///< medians over the runs that did not collapse
+  double messages_per_step, bytes_per_step;  ///< likewise
 };
 
 /// Sums a study up.

@@ -40,6 +40,12 @@ std::string headline(const Outcome& outcome) {
   return line;
 }
 
+bool has_groups(const Design& design) {
+  return std::any_of(design.contenders.begin(), design.contenders.end(), [](const Contender& contender) {
+    return contender.plans.front().filter == FilterKind::kDistributed;
+  });
+}
+
 std::vector<std::string> notes_of(const Outcome& outcome) {
   const Design& d = outcome.design;
   std::vector<std::string> notes{
@@ -65,6 +71,8 @@ std::vector<std::string> notes_of(const Outcome& outcome) {
                                 *outcome.lost_beyond, d.target.unit, d.target.name));
   notes.emplace_back(
       "collapsed: runs in which all weights were zero; where they ended there, their errors are infinite.");
+  if (has_groups(d))
+    notes.emplace_back("messages, bytes: sent between groups a step, each group taken for a processor; medians.");
   notes.emplace_back("ns, s: time per particle and step, and of a run; medians, the filters taking turns.");
   return notes;
 }
@@ -99,6 +107,8 @@ std::vector<Column> columns_of(const Outcome& outcome) {
   columns.push_back({"log evidence",
                      [&](std::size_t c, std::size_t s) { return fmt::format("{:.6g}", figures[c][s].log_evidence); }});
   columns.push_back({"its sd", number(&Figures::log_evidence_sd)});
+  if (has_groups(d)) columns.push_back({"messages", number(&Figures::messages_per_step)});
+  if (has_groups(d)) columns.push_back({"bytes", number(&Figures::bytes_per_step)});
   columns.push_back({"ns", number(&Figures::ns_per_particle_step)});
   columns.push_back({"s", number(&Figures::seconds)});
   return columns;
@@ -145,7 +155,9 @@ json figures_json(const Figures& f) {
            {"log_evidence", number(f.log_evidence)},
            {"log_evidence_sd", number(f.log_evidence_sd)},
            {"seconds", number(f.seconds)},
-           {"ns_per_particle_step", number(f.ns_per_particle_step)}};
+           {"ns_per_particle_step", number(f.ns_per_particle_step)},
+           {"messages_per_step", number(f.messages_per_step)},
+           {"bytes_per_step", number(f.bytes_per_step)}};
   if (f.lost) out["lost"] = *f.lost;
   if (!f.ratio) return out;
   out["ratio"] = number(f.ratio->value);
@@ -228,12 +240,13 @@ std::string csv_rows(const Outcome& outcome) {
   for (std::size_t c = 0; c < outcome.figures.size(); ++c)
     for (std::size_t s = 0; s < outcome.figures[c].size(); ++s) {
       const Figures& f = outcome.figures[c][s];
-      csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", outcome.design.model,
+      csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", outcome.design.model,
                          field(outcome.design.contenders[c].name), outcome.design.particles[s], exact(f.rmse_truth),
                          three(f.median_mse), three(f.mean_mse), f.ratio ? three(*f.ratio) : ",,", exact(f.nees),
                          exact(f.nees_band.low), exact(f.nees_band.high), exact(f.coverage), f.collapsed,
                          f.lost ? std::to_string(*f.lost) : "", exact(f.log_evidence), exact(f.log_evidence_sd),
-                         exact(f.seconds), exact(f.ns_per_particle_step));
+                         exact(f.seconds), exact(f.ns_per_particle_step), exact(f.messages_per_step),
+                         exact(f.bytes_per_step));
     }
   return csv;
 }
@@ -292,7 +305,7 @@ std::string comparison_csv(std::span<const Outcome> outcomes) {
   std::string csv =
       "model,filter,particles,rmse_truth,mse_median,mse_median_low,mse_median_high,mse_mean,mse_mean_low,mse_mean_high,"
       "ratio,ratio_low,ratio_high,nees,nees_low,nees_high,coverage,collapsed,lost,log_evidence,log_evidence_sd,seconds,"
-      "ns_per_particle_step\n";
+      "ns_per_particle_step,messages_per_step,bytes_per_step\n";
   for (const Outcome& outcome : outcomes) csv += csv_rows(outcome);
   return csv;
 }

@@ -84,6 +84,8 @@ void measure(const Design& design, const RunRecord& record, Measured& run) {
   run.collapsed = summary.collapses > 0;
   run.seconds = record.step_seconds;
   run.ns_per_particle_step = summary.ns_per_particle_step;
+  run.messages_per_step = summary.traffic_per_step.messages;
+  run.bytes_per_step = summary.traffic_per_step.bytes;
 }
 
 void mark_collapsed(const Design& design, Measured& run) {
@@ -91,7 +93,7 @@ void mark_collapsed(const Design& design, Measured& run) {
   run.mse_truth = run.final_error = design.has_truth() ? kInfinity : kNaN;
   run.mse_reference = design.reference.name.empty() ? kNaN : kInfinity;
   run.log_evidence = -kInfinity;
-  run.seconds = run.ns_per_particle_step = kNaN;
+  run.seconds = run.ns_per_particle_step = run.messages_per_step = run.bytes_per_step = kNaN;
 }
 
 std::string place_of(const Design& design, const Contender& contender) {

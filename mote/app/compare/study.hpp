@@ -37,7 +37,9 @@ struct Measured {
   double log_evidence = 0;   ///< nat; -infinity after a collapse
   double seconds = 0;        ///< in stepping and estimating; NaN after a collapse
   double ns_per_particle_step = 0;
-  bool collapsed = false;  ///< at some step all weights were zero; a run that ended there has infinite errors
+  double messages_per_step = 0,
+         bytes_per_step = 0;  ///< between the groups of a distributed filter; NaN after a collapse
+  bool collapsed = false;     ///< at some step all weights were zero; a run that ended there has infinite errors
 };
 
 /// Posterior means by recording that errors are measured against.

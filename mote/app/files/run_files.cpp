@@ -80,6 +80,10 @@ nlohmann::json summary_json(const RunRecord& record, const Summary& summary) {
     json["barrier_seconds"] = record.stages->barrier_seconds;
     json["stages"] = stages_json(*record.stages);
   }
+  if (record.plan.filter == FilterKind::kDistributed) {
+    json["messages_per_step"] = summary.traffic_per_step.messages;
+    json["bytes_per_step"] = summary.traffic_per_step.bytes;
+  }
   if (!summary.rmse.empty()) {
     json["rmse"] = nlohmann::json::object();
     for (std::size_t d = 0; d < summary.rmse.size(); ++d)
