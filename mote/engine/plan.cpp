@@ -70,16 +70,20 @@ void check_stages(const Plan& plan, const std::string& where) {
 }
 
 void check_ranks(const Plan& plan, const std::string& where) {
+  const auto at_most = [&](std::size_t most, const std::string& expected, const std::string& next) {
+    require(plan.team->ranks() <= most, where, "--engine mpi",
+            fmt::format("at most {} rank{} for {}", most, most == 1 ? "" : "s", expected),
+            fmt::format("{} ranks", plan.team->ranks()), next);
+  };
+  if (plan.filter == FilterKind::kDistributed)
+    return at_most(plan.groups.groups, fmt::format("--groups {}: a group stays on one", plan.groups.groups),
+                   "Start fewer ranks, or pass more --groups.");
   const std::size_t blocks = (plan.particles + kBlock - 1) / kBlock;
-  require(plan.team->ranks() <= blocks, where, "--engine mpi",
-          fmt::format("at most {} ranks for {} particles, a block of {} each", blocks, plan.particles, kBlock),
-          fmt::format("{} ranks", plan.team->ranks()), "Start fewer ranks, or pass more --particles.");
-  if (plan.filter == FilterKind::kSisr) return;
-  require(plan.team->ranks() <= plan.chain.chains, where, "--engine mpi",
-          fmt::format("at most {} rank{} for --chains {}: a chain stays on one", plan.chain.chains,
-                      plan.chain.chains == 1 ? "" : "s", plan.chain.chains),
-          fmt::format("{} ranks", plan.team->ranks()),
-          fmt::format("Pass --chains {}, or start fewer ranks.", 16 * plan.team->ranks()));
+  at_most(blocks, fmt::format("{} particles, a block of {} each", plan.particles, kBlock),
+          "Start fewer ranks, or pass more --particles.");
+  if (plan.filter != FilterKind::kSisr)
+    at_most(plan.chain.chains, fmt::format("--chains {}: a chain stays on one", plan.chain.chains),
+            fmt::format("Pass --chains {}, or start fewer ranks.", 16 * plan.team->ranks()));
 }
 
 }  // namespace
@@ -152,12 +156,13 @@ void check(const Plan& plan, const std::string& where) {
           "--filter sisr, or imh or auxiliary with --proposal prior, without --burn-in auto and lookahead",
           fmt::format("--filter {} --proposal {}", name_of(plan.filter), plan.proposal),
           "Pass --engine reference, or leave it out.");
-  require(plan.engine != Engine::kMpi || team_has(plan), where, "--engine mpi",
-          "--filter sisr with --resampler systematic and --selection-exponent 1, or imh or auxiliary with --proposal "
-          "prior, without --burn-in auto and lookahead",
-          fmt::format("--filter {} --resampler {} --selection-exponent {} --proposal {}", name_of(plan.filter),
-                      plan.selection.scheme->name, plan.selection.exponent, plan.proposal),
-          "Pass --engine fastest, or leave it out.");
+  require(
+      plan.engine != Engine::kMpi || team_has(plan), where, "--engine mpi",
+      "--filter sisr with --resampler systematic and --selection-exponent 1, imh or auxiliary with --proposal prior, "
+      "without --burn-in auto and lookahead, or distributed with groups that resample by themselves",
+      fmt::format("--filter {} --resampler {} --selection-exponent {} --proposal {}", name_of(plan.filter),
+                  plan.selection.scheme->name, plan.selection.exponent, plan.proposal),
+      "Pass --engine fastest, or leave it out.");
   check_stages(plan, where);
   require(plan.particles >= 1 && plan.particles <= kMostParticles, where, "--particles",
           fmt::format("an integer from 1 to {}", kMostParticles), std::to_string(plan.particles),

@@ -52,12 +52,13 @@ inline bool simd_has(const Plan& plan) {
          plan.chain.parent_weights == ParentWeights::kUniform;
 }
 
-/// Whether a team can run the plan's filter: SISR whose selection needs no more than the sums of the blocks, and the
-/// chains that the SIMD engine has.
+/// Whether a team can run the plan's filter: SISR whose selection needs no more than the sums of the blocks, the chains
+/// that the SIMD engine has, groups that select by themselves.
 inline bool team_has(const Plan& plan) {
-  return plan.filter == FilterKind::kSisr
-             ? plan.selection.scheme == &systematic_scheme() && plan.selection.exponent == 1
-             : simd_has(plan);
+  if (plan.filter == FilterKind::kSisr)
+    return plan.selection.scheme == &systematic_scheme() && plan.selection.exponent == 1;
+  if (plan.filter == FilterKind::kDistributed) return !plan.groups.joint();
+  return simd_has(plan);
 }
 
 /// Whether the pipeline engine has the plan's filter.

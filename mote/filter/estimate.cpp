@@ -16,13 +16,7 @@ Moments moments(std::span<const R> values, std::span<const double> weights, doub
                [&](std::size_t i) { return weights[i] > 0 ? weights[i] * f(static_cast<double>(values[i])) : 0.0; }) /
            total;
   };
-  if (angle) {
-    const double c = mean_of([](double v) { return std::cos(v); });
-    const double s = mean_of([](double v) { return std::sin(v); });
-    return {std::atan2(s, c), std::sqrt(std::max(0.0, -2 * std::log(std::min(1.0, std::hypot(c, s)))))};
-  }
-  const double mean = mean_of([](double v) { return v; });
-  return {mean, std::sqrt(mean_of([&](double v) { return (v - mean) * (v - mean); }))};
+  return moments_by(mean_of, angle);
 }
 
 template Moments moments(std::span<const double>, std::span<const double>, double, bool);

@@ -1,6 +1,8 @@
 #pragma once
 /// Estimate: moments, quantiles and probabilities from weighted particles.
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -24,6 +26,18 @@ struct Moments {
 /// source  docs/filters.md (F28), (F29); Mardia & Jupp 2000, sec. 2.3 for the circular ones
 template <class R>
 Moments moments(std::span<const R> values, std::span<const double> weights, double total, bool angle);
+
+/// The same from mean_of(f), the weighted mean of a function of the value.
+template <class MeanOf>
+Moments moments_by(const MeanOf& mean_of, bool angle) {
+  if (angle) {
+    const double c = mean_of([](double v) { return std::cos(v); });
+    const double s = mean_of([](double v) { return std::sin(v); });
+    return {std::atan2(s, c), std::sqrt(std::max(0.0, -2 * std::log(std::min(1.0, std::hypot(c, s)))))};
+  }
+  const double mean = mean_of([](double v) { return v; });
+  return {mean, std::sqrt(mean_of([&](double v) { return (v - mean) * (v - mean); }))};
+}
 
 /// The smallest value whose cumulative weight reaches `level` of the total. An angle is unrolled about its circular
 /// mean.

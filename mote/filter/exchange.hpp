@@ -3,16 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 #include <vector>
 
+#include "mote/filter/membership.hpp"
 #include "mote/filter/particles.hpp"
-#include "mote/filter/topology.hpp"
 #include "mote/filter/traffic.hpp"
 
 namespace mote {
 
-/// The particles that each group receives: those of group k at [k count, (k + 1) count).
+/// The particles that each group here receives: those of the k-th of them at [k count, (k + 1) count).
 template <class R>
 struct Inbox {
   std::size_t count = 0;
@@ -43,34 +44,80 @@ inline std::vector<Index> evenly_spread(std::size_t first, std::size_t n, std::s
   return places;
 }
 
-/// Particles by group.
+/// Particles by group, of those here.
 using ByGroup = std::vector<std::vector<Index>>;
 
-/// What arrives at each group when each deals the particles that it sends out to its neighbours, one to each in turn.
-///
-/// shape   sent: (K, M degree), sender by sender; out: the same, receiver by receiver
-inline ByGroup dealt(const ByGroup& sent, Topology topology, std::size_t turn) {
-  ByGroup arriving(sent.size());
-  for (std::size_t k = 0; k < sent.size(); ++k) {
-    const std::vector<std::size_t> to = neighbours(topology, sent.size(), k, turn);
-    for (std::size_t q = 0; q < to.size(); ++q)
-      for (std::size_t rank = q; rank < sent[k].size(); rank += to.size()) arriving[to[q]].push_back(sent[k][rank]);
+/// Copies of particles with their weights, as bytes.
+template <class R>
+Letter letter_of(const Particles<R>& x, std::span<const double> log_weights, std::span<const Index> particles) {
+  Letter letter{0, 0, {}};
+  const auto write = [&](const auto& number) {
+    const auto bytes = std::as_bytes(std::span(&number, 1));
+    letter.bytes.insert(letter.bytes.end(), bytes.begin(), bytes.end());
+  };
+  for (const Index i : particles) {
+    for (std::size_t d = 0; d < x.dimensions(); ++d) write(x.component(d)[i]);
+    write(log_weights[i]);
   }
-  return arriving;
+  return letter;
+}
+/// Takes the particles of a letter in, from place `to` on.
+template <class R>
+void take_in(const Letter& letter, std::size_t to, Particles<R>& x, std::span<double> log_weights) {
+  const std::byte* from = letter.bytes.data();
+  const auto read = [&](auto& number) {
+    std::memcpy(&number, from, sizeof number);
+    from += sizeof number;
+  };
+  for (; from != letter.bytes.data() + letter.bytes.size(); ++to) {
+    for (std::size_t d = 0; d < x.dimensions(); ++d) read(x.component(d)[to]);
+    read(log_weights[to]);
+  }
 }
 
-/// Copies of the arriving particles, with their weights.
+/// What arrives at each group here when each deals the particles that it sends out to its neighbours, one to each in
+/// turn. Letters arrive in the order of their senders.
+///
+/// shape   sent: (groups here, M degree)
 template <class R>
-Inbox<R> collected(const Particles<R>& x, std::span<const double> log_weights, const ByGroup& arriving) {
-  const std::size_t count = arriving.front().size();
-  Inbox<R> inbox{count, Particles<R>(x.dimensions(), count * arriving.size()), {}};
-  std::size_t to = 0;
-  for (const auto& group : arriving)
-    for (const Index from : group) {
-      inbox.log_weights.push_back(log_weights[from]);
-      for (std::size_t d = 0; d < x.dimensions(); ++d) inbox.x.component(d)[to] = x.component(d)[from];
-      ++to;
+Inbox<R> dealt(const Particles<R>& x, std::span<const double> log_weights, const ByGroup& sent,
+               const Membership& members, const GroupOptions& options, std::size_t turn) {
+  const std::size_t all = members.groups().count();
+  const std::size_t here = members.end() - members.begin();
+  const std::size_t count = options.exchange_count * degree(options.topology, all);
+  Inbox<R> inbox{count, Particles<R>(x.dimensions(), count * here), std::vector<double>(count * here)};
+  std::vector<std::size_t> taken(here);
+  std::vector<Letter> out;
+  std::vector<Letter> in;
+  std::vector<std::size_t> places;  // of those that come in
+  const auto next_place = [&](std::size_t group) {
+    std::size_t& at = taken[group - members.begin()];
+    at += options.exchange_count;
+    return (group - members.begin()) * count + at - options.exchange_count;
+  };
+  for (std::size_t k = 0; k < all; ++k) {
+    const std::vector<std::size_t> to = neighbours(options.topology, all, k, turn);
+    for (std::size_t q = 0; q < to.size(); ++q) {
+      if (members.has(k)) {
+        const std::vector<Index>& mine = sent[k - members.begin()];
+        std::vector<Index> picked;
+        for (std::size_t rank = q; rank < mine.size(); rank += to.size()) picked.push_back(mine[rank]);
+        Letter letter = letter_of(x, log_weights, picked);
+        letter.from = k;
+        letter.to = to[q];
+        if (members.has(to[q]))
+          take_in(letter, next_place(to[q]), inbox.x, inbox.log_weights);
+        else
+          out.push_back(std::move(letter));
+      } else if (members.has(to[q])) {
+        const std::size_t bytes = options.exchange_count * (x.dimensions() * sizeof(R) + sizeof(double));
+        in.push_back({k, to[q], std::vector<std::byte>(bytes)});
+        places.push_back(next_place(to[q]));
+      }
     }
+  }
+  members.carry(out, in);
+  for (std::size_t j = 0; j < in.size(); ++j) take_in(in[j], places[j], inbox.x, inbox.log_weights);
   return inbox;
 }
 
@@ -97,13 +144,13 @@ void put(const Inbox<R>& inbox, const ByGroup& places, Particles<R>& x, std::spa
 /// returns the copies for append; swap and replace are done in place and return an empty inbox
 /// source  docs/filters.md (F23); PPF section 3.4.1
 template <class R>
-Inbox<R> send(Particles<R>& x, std::span<double> log_weights, const Groups& groups, const GroupOptions& options,
+Inbox<R> send(Particles<R>& x, std::span<double> log_weights, const Membership& members, const GroupOptions& options,
               std::size_t turn) {
-  const std::size_t m = options.exchange_count * degree(options.topology, groups.count());
+  const std::size_t m = options.exchange_count * degree(options.topology, members.groups().count());
   const auto extremes = [&](bool heaviest) {
     ByGroup all;
-    for (std::size_t k = 0; k < groups.count(); ++k)
-      all.push_back(extreme(log_weights, groups.first(k), groups.size(k), m, heaviest));
+    for (std::size_t k = members.begin(); k < members.end(); ++k)
+      all.push_back(extreme(log_weights, members.first(k), members.size(k), m, heaviest));
     return all;
   };
   const ByGroup sent = extremes(true);
@@ -111,7 +158,7 @@ Inbox<R> send(Particles<R>& x, std::span<double> log_weights, const Groups& grou
   if (options.exchange != Exchange::kSwap)
     for (const auto& group : sent)
       for (const Index i : group) log_weights[i] -= std::log(2.0);
-  Inbox<R> inbox = collected(x, log_weights, dealt(sent, options.topology, turn));
+  Inbox<R> inbox = dealt(x, log_weights, sent, members, options, turn);
   if (options.exchange == Exchange::kAppend) return inbox;
   put(inbox, places, x, log_weights);
   return {};
@@ -121,12 +168,13 @@ Inbox<R> send(Particles<R>& x, std::span<double> log_weights, const Groups& grou
 ///
 /// source  docs/filters.md (F24c); Bolic, Djuric & Hong 2005: RNA with local exchange
 template <class R>
-void trade_evenly(Particles<R>& x, std::span<double> log_weights, const Groups& groups, const GroupOptions& options,
-                  std::size_t turn) {
-  const std::size_t m = options.exchange_count * degree(options.topology, groups.count());
+void trade_evenly(Particles<R>& x, std::span<double> log_weights, const Membership& members,
+                  const GroupOptions& options, std::size_t turn) {
+  const std::size_t m = options.exchange_count * degree(options.topology, members.groups().count());
   ByGroup sent;
-  for (std::size_t k = 0; k < groups.count(); ++k) sent.push_back(evenly_spread(groups.first(k), groups.size(k), m));
-  put(collected(x, log_weights, dealt(sent, options.topology, turn)), sent, x, log_weights);
+  for (std::size_t k = members.begin(); k < members.end(); ++k)
+    sent.push_back(evenly_spread(members.first(k), members.size(k), m));
+  put(dealt(x, log_weights, sent, members, options, turn), sent, x, log_weights);
 }
 
 /// What an exchange sends: to each neighbour one message of M particles, state and weight.

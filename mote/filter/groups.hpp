@@ -21,11 +21,12 @@ inline Draws stream_of(Draws draws, std::size_t group) {
 /// How many groups of equal weight would be as good as these: (sum m)^2 / sum m^2.
 ///
 /// source  docs/filters.md (F24b)
-inline double effective_groups(std::span<const double> log_weights, const Groups& groups) {
+inline double effective_groups(std::span<const double> log_weights, const Membership& members) {
   double sum = 0;
   double squares = 0;
-  for (std::size_t k = 0; k < groups.count(); ++k) {
-    const double mass = std::exp(log_sum_exp(log_weights.subspan(groups.first(k), groups.size(k))).log_sum);
+  for (const double mass : members.of_all(members.by_group([&](std::size_t first, std::size_t n) {
+         return std::exp(log_sum_exp(log_weights.subspan(first, n)).log_sum);
+       }))) {
     sum += mass;
     squares += mass * mass;
   }
@@ -66,39 +67,44 @@ class GroupSelector final : public Selector<R> {
   GroupSelector(const SelectionOptions& selection, const GroupOptions& groups) : options_(selection), groups_(groups) {}
 
   Selected select(Cloud<R>& cloud, double, const Draws& draws) override {
-    const Groups groups(cloud.size(), groups_.groups);
+    const Membership& members = *cloud.members;
     Selected done;
-    const bool due = exchange_is_due(cloud, groups, draws.step, done.traffic);
+    const bool due = exchange_is_due(cloud, draws.step, done.traffic);
     const std::size_t turn = draws.step / groups_.exchange_every;
     const bool after = groups_.resampling == GroupResampling::kNonProportional;
     Inbox<R> inbox;
-    if (due && !after) inbox = receive(cloud, groups, turn);
-    for (std::size_t k = 0; k < groups.count(); ++k)
-      done.any = select_group(cloud, groups.first(k), groups.size(k), inbox, k, draws) || done.any;
-    if (!groups_.carry_group_weights && !after && done.any) reset(cloud, groups);
-    if (due && after) trade_evenly(cloud.x, cloud.log_weights, groups, groups_, turn);
+    if (due && !after) inbox = receive(cloud, turn);
+    std::vector<double> selected;
+    for (std::size_t k = members.begin(); k < members.end(); ++k)
+      selected.push_back(select_group(cloud, members.first(k), members.size(k), inbox, k, draws) ? 1 : 0);
+    done.any = members.largest(std::move(selected)) > 0;
+    if (!groups_.carry_group_weights && !after && done.any) reset(cloud);
+    if (due && after) trade_evenly(cloud.x, cloud.log_weights, members, groups_, turn);
     if (due) done.traffic += exchanged<R>(groups_, cloud.x.dimensions());
     return done;
   }
 
  private:
   /// Whether this step exchanges; asking the groups for their weights is traffic.
-  bool exchange_is_due(const Cloud<R>& cloud, const Groups& groups, std::size_t step, Traffic& traffic) const {
+  bool exchange_is_due(const Cloud<R>& cloud, std::size_t step, Traffic& traffic) const {
     if (!groups_.exchanges() || step % groups_.exchange_every != 0) return false;
     if (groups_.exchange_when >= 1) return true;
-    traffic += all_gathered(groups.count(), sizeof(double));
-    return effective_groups(cloud.log_weights, groups) <= groups_.exchange_when * static_cast<double>(groups.count());
+    traffic += all_gathered(groups_.groups, sizeof(double));
+    return effective_groups(cloud.log_weights, *cloud.members) <=
+           groups_.exchange_when * static_cast<double>(groups_.groups);
   }
 
-  Inbox<R> receive(Cloud<R>& cloud, const Groups& groups, std::size_t turn) const {
-    Inbox<R> inbox = send(cloud.x, cloud.log_weights, groups, groups_, turn);
-    if (groups_.exchange == Exchange::kReplace) share_out_what_was_lost(cloud.log_weights);
+  Inbox<R> receive(Cloud<R>& cloud, std::size_t turn) const {
+    Inbox<R> inbox = send(cloud.x, cloud.log_weights, *cloud.members, groups_, turn);
+    if (groups_.exchange == Exchange::kReplace) share_out_what_was_lost(cloud.log_weights, *cloud.members);
     return inbox;
   }
 
   /// The weight of replaced particles goes to all others in proportion.
-  static void share_out_what_was_lost(std::span<double> log_weights) {
-    const double left = log_sum_exp(log_weights).log_sum;
+  static void share_out_what_was_lost(std::span<double> log_weights, const Membership& members) {
+    const std::vector<double> masses = members.of_all(members.by_group(
+        [&](std::size_t first, std::size_t n) { return log_sum_exp(log_weights.subspan(first, n)).log_sum; }));
+    const double left = log_sum_exp(masses).log_sum;
     if (!std::isfinite(left)) return;
     for (double& l : log_weights) l -= left;
   }
@@ -123,14 +129,15 @@ class GroupSelector final : public Selector<R> {
   bool select_appended(Cloud<R>& cloud, std::size_t first, std::size_t n, const Inbox<R>& inbox, std::size_t k,
                        const Draws& draws) {
     const std::size_t m = inbox.count;
+    const std::size_t place = (k - cloud.members->begin()) * m;
     Cloud<R> both(cloud.x.dimensions(), n + m);
     for (std::size_t d = 0; d < cloud.x.dimensions(); ++d) {
       std::copy_n(cloud.x.component(d).begin() + static_cast<std::ptrdiff_t>(first), n, both.x.component(d).begin());
-      std::copy_n(inbox.x.component(d).begin() + static_cast<std::ptrdiff_t>(k * m), m,
+      std::copy_n(inbox.x.component(d).begin() + static_cast<std::ptrdiff_t>(place), m,
                   both.x.component(d).begin() + static_cast<std::ptrdiff_t>(n));
     }
     std::copy_n(cloud.log_weights.begin() + static_cast<std::ptrdiff_t>(first), n, both.log_weights.begin());
-    std::copy_n(inbox.log_weights.begin() + static_cast<std::ptrdiff_t>(k * m), m,
+    std::copy_n(inbox.log_weights.begin() + static_cast<std::ptrdiff_t>(place), m,
                 both.log_weights.begin() + static_cast<std::ptrdiff_t>(n));
     const LogSum mass = log_sum_exp(both.log_weights);
     if (!std::isfinite(mass.largest)) return false;
@@ -152,12 +159,14 @@ class GroupSelector final : public Selector<R> {
   }
 
   /// Every group gets the weight n_k / N again, whatever its particles explained.
-  static void reset(Cloud<R>& cloud, const Groups& groups) {
-    for (std::size_t k = 0; k < groups.count(); ++k) {
-      const std::span<double> logs(cloud.log_weights.data() + groups.first(k), groups.size(k));
+  static void reset(Cloud<R>& cloud) {
+    const Membership& members = *cloud.members;
+    const double all = std::log(static_cast<double>(cloud.all()));
+    for (std::size_t k = members.begin(); k < members.end(); ++k) {
+      const std::span<double> logs(cloud.log_weights.data() + members.first(k), members.size(k));
       const double mass = log_sum_exp(logs).log_sum;
-      const double share = std::log(static_cast<double>(groups.size(k)) / static_cast<double>(cloud.size()));
-      for (double& l : logs) l = std::isfinite(mass) ? l - mass + share : -std::log(static_cast<double>(cloud.size()));
+      const double share = std::log(static_cast<double>(members.size(k))) - all;
+      for (double& l : logs) l = std::isfinite(mass) ? l - mass + share : -all;
     }
   }
 
@@ -249,9 +258,7 @@ class JointSelector final : public Selector<R> {
 /// The selector that the options ask for.
 template <class R>
 std::unique_ptr<Selector<R>> make_group_selector(const SelectionOptions& selection, const GroupOptions& groups) {
-  const bool joint =
-      groups.resampling == GroupResampling::kGlobal || groups.resampling == GroupResampling::kProportional;
-  if (joint) return std::make_unique<JointSelector<R>>(selection, groups);
+  if (groups.joint()) return std::make_unique<JointSelector<R>>(selection, groups);
   return std::make_unique<GroupSelector<R>>(selection, groups);
 }
 

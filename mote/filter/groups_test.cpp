@@ -9,8 +9,8 @@ namespace {
 
 /// n particles of value i; their weights rise by group: group k of `count` has (1 + k)^2 times those of a first one.
 Cloud<double> sloping(std::size_t n, std::size_t count) {
-  Cloud<double> cloud(1, n);
   const Groups groups(n, count);
+  Cloud<double> cloud(1, std::make_shared<Membership>(groups));
   for (std::size_t i = 0; i < n; ++i) {
     cloud.x.component(0)[i] = static_cast<double>(i);
     cloud.weights[i] = std::pow(1.0 + static_cast<double>(groups.of(i)), 2) * (1.0 + static_cast<double>(5 * i % 7));

@@ -73,6 +73,8 @@ struct GroupOptions {
   bool carry_group_weights =
       true;  ///< false: every group restarts with weight N_k / N after resampling, as PPF's Alg. 5 does
 
+  /// Whether selection is over all particles, not inside groups.
+  bool joint() const { return resampling == GroupResampling::kGlobal || resampling == GroupResampling::kProportional; }
   /// Whether groups hand particles on to their neighbours.
   bool exchanges() const {
     return groups > 1 && (resampling == GroupResampling::kNonProportional || exchanges_before());

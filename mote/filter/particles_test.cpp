@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mote/filter/weigh.hpp"
+#include "mote/filter/settle.hpp"
 #include "mote/model/ungm.hpp"
 
 namespace mote {
@@ -69,23 +69,26 @@ TEST(Weigh, RowsMultiplyAndNaNCountsAsZero) {
 }
 
 TEST(Normalise, LeavesLogSumZeroAndSaysWhatItWas) {
-  std::vector<double> log_weights{-1000, -1000 + std::log(3.0), -kInfinity};
-  std::vector<double> weights(3);
-  const Judgement j = normalise(log_weights, weights);
-  EXPECT_FALSE(j.collapsed);
-  EXPECT_NEAR(j.log_sum, -1000 + std::log(4.0), 1e-12);
-  EXPECT_NEAR(log_weights[1], std::log(0.75), 1e-12);
-  EXPECT_EQ(weights[1], 1);
-  EXPECT_EQ(weights[2], 0);
-  EXPECT_NEAR(j.total, 4.0 / 3, 1e-12);
-  EXPECT_NEAR(j.ess, 16.0 / 10, 1e-12);
+  for (const std::size_t groups : {1, 2, 3}) {
+    Cloud<double> cloud(1, std::make_shared<Membership>(Groups(3, groups)));
+    cloud.log_weights = {-1000, -1000 + std::log(3.0), -kInfinity};
+    const Judgement j = normalise(cloud);
+    EXPECT_FALSE(j.collapsed);
+    EXPECT_NEAR(j.log_sum, -1000 + std::log(4.0), 1e-12);
+    EXPECT_NEAR(cloud.log_weights[1], std::log(0.75), 1e-12);
+    EXPECT_EQ(cloud.weights[1], 1);
+    EXPECT_EQ(cloud.weights[2], 0);
+    EXPECT_NEAR(j.total, 4.0 / 3, 1e-12);
+    EXPECT_NEAR(j.ess, 16.0 / 10, 1e-12);
+  }
 }
 
 TEST(Normalise, TellsACollapseAndTouchesNothing) {
-  std::vector<double> log_weights(3, -kInfinity);
-  std::vector<double> weights{1, 2, 3};
-  EXPECT_TRUE(normalise(log_weights, weights).collapsed);
-  EXPECT_EQ(weights, (std::vector<double>{1, 2, 3}));
+  Cloud<double> cloud(1, 3);
+  cloud.log_weights.assign(3, -kInfinity);
+  cloud.weights = {1, 2, 3};
+  EXPECT_TRUE(normalise(cloud).collapsed);
+  EXPECT_EQ(cloud.weights, (std::vector<double>{1, 2, 3}));
 }
 
 }  // namespace

@@ -8,11 +8,14 @@
 
 namespace mote {
 
-/// Draws x_0 of every particle from the prior.
+/// Draws x_0 of every particle from the prior; the first one's draws are those of particle `offset`.
 template <Model M, class R>
-void draw_prior(const M& model, Particles<R>& x, const Draws& draws, Purpose purpose = Purpose::kPrior) {
-  draws.for_each<R>(purpose, 0, x.size(),
-                    [&](std::size_t i, auto& draw) { x.write(i, model.template initial<R>(draw)); });
+void draw_prior(const M& model, Particles<R>& x, const Draws& draws, Purpose purpose = Purpose::kPrior,
+                std::size_t offset = 0) {
+  draws.for_each<R>(purpose, offset / kBlock * kBlock, offset + x.size(), [&](std::size_t i, auto& draw) {
+    const auto state = model.template initial<R>(draw);
+    if (i >= offset) x.write(i - offset, state);
+  });
 }
 
 /// Moves particles [first, last) by the model: x_i ~ p(. | x_i), with draws from where `moves` is.

@@ -5,25 +5,35 @@
 #include <vector>
 
 #include "mote/base/log_weights.hpp"
+#include "mote/filter/membership.hpp"
 #include "mote/filter/options.hpp"
 #include "mote/filter/particles.hpp"
 #include "mote/filter/traffic.hpp"
 
 namespace mote {
 
-/// The weighted cloud of an importance filter. Carried log weights have log-sum-exp 0 (in the mean, with w / a
-/// selection).
+/// The weighted cloud of an importance filter: the particles of its groups that this process has. Carried log weights
+/// of all groups have log-sum-exp 0 (in the mean, with w / a selection).
 template <class R>
 struct Cloud {
   Particles<R> x;
   std::vector<double> log_weights;  // (N,) normalised
   std::vector<double> weights;      // (N,) linear, scratch between update and select
 
-  Cloud(std::size_t dimensions, std::size_t n) : x(dimensions, n), log_weights(n), weights(n) { spread(); }
+  std::shared_ptr<const Membership> members;
+
+  /// One group of n particles.
+  Cloud(std::size_t dimensions, std::size_t n) : Cloud(dimensions, std::make_shared<Membership>(Groups(n, 1))) {}
+  Cloud(std::size_t dimensions, std::shared_ptr<const Membership> all)
+      : x(dimensions, all->particles()), log_weights(x.size()), weights(x.size()), members(std::move(all)) {
+    spread();
+  }
+  /// Particles here, and in all groups.
   std::size_t size() const { return x.size(); }
+  std::size_t all() const { return members->groups().particles(); }
   /// All particles weigh the same.
   void spread() {
-    std::fill(log_weights.begin(), log_weights.end(), -std::log(static_cast<double>(size())));
+    std::fill(log_weights.begin(), log_weights.end(), -std::log(static_cast<double>(all())));
     std::fill(weights.begin(), weights.end(), 1.0);
   }
 };

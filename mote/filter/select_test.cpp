@@ -9,9 +9,9 @@
 namespace mote {
 namespace {
 
-/// A cloud of n particles of value i with weights (1 + i mod 5)^2 spread around.
-Cloud<double> uneven(std::size_t n) {
-  Cloud<double> cloud(1, n);
+/// A cloud of n particles of value i, in groups, with weights (1 + i mod 5)^2 spread around.
+Cloud<double> uneven(std::size_t n, std::size_t groups = 1) {
+  Cloud<double> cloud(1, std::make_shared<Membership>(Groups(n, groups)));
   double total = 0;
   for (std::size_t i = 0; i < n; ++i) {
     cloud.x.component(0)[i] = static_cast<double>(i);
@@ -39,12 +39,12 @@ Integrals integrals(const Cloud<double>& cloud) {
 /// Largest |z| of the mean after selection, over the seeds 1..R, of both integrals against those before; exact
 /// agreement counts as 0.
 template <class Select>
-double worst_z(std::size_t n, int runs, Select&& select) {
+double worst_z(std::size_t n, int runs, Select&& select, std::size_t groups = 1) {
   const Integrals exact = integrals(uneven(n));
   std::array<double, 2> sum{};
   std::array<double, 2> squares{};
   for (int r = 1; r <= runs; ++r) {
-    Cloud<double> cloud = uneven(n);
+    Cloud<double> cloud = uneven(n, groups);
     select(cloud, Draws{static_cast<std::uint64_t>(r), 4});
     const Integrals got = integrals(cloud);
     const std::array<double, 2> error{got.one - exact.one, got.sine - exact.sine};
@@ -132,9 +132,10 @@ double worst_z_of_groups(const GroupOptions& groups, double exponent, double thr
   SelectionOptions options;
   options.exponent = exponent;
   options.ess_threshold = threshold;
-  return worst_z(40, 4000, [&](auto& cloud, const Draws& draws) {
-    make_group_selector<double>(options, groups)->select(cloud, 0, draws);
-  });
+  return worst_z(
+      40, 4000,
+      [&](auto& cloud, const Draws& draws) { make_group_selector<double>(options, groups)->select(cloud, 0, draws); },
+      groups.groups);
 }
 
 // claim    groups that carry their weights keep E[sum w f], with swap, append or no exchange, on every topology, and so
@@ -166,7 +167,7 @@ TEST(Select, GroupsKeepExpectations) {
 }
 
 TEST(Select, AGroupWithoutWeightWaits) {
-  Cloud<double> cloud = uneven(12);
+  Cloud<double> cloud = uneven(12, 3);
   for (std::size_t i = 4; i < 8; ++i) cloud.log_weights[i] = -kInfinity;
   GroupOptions groups = groups_of(Exchange::kNone);
   GroupSelector<double> selector({}, groups);
@@ -174,7 +175,7 @@ TEST(Select, AGroupWithoutWeightWaits) {
   for (std::size_t i = 4; i < 8; ++i) EXPECT_EQ(cloud.x.component(0)[i], static_cast<double>(i));
   // fresh weights after a reset: each group its share, the empty one too
   groups.carry_group_weights = false;
-  cloud = uneven(12);
+  cloud = uneven(12, 3);
   for (std::size_t i = 4; i < 8; ++i) cloud.log_weights[i] = -kInfinity;
   GroupSelector<double>({}, groups).select(cloud, 0, Draws{1, 1});
   for (const double l : cloud.log_weights) EXPECT_NEAR(l, -std::log(12.0), 1e-12);
@@ -184,7 +185,7 @@ TEST(Select, GroupsDrawFromStreamsOfTheirOwn) {
   // equal groups under one scheme would choose alike if they shared their draws
   SelectionOptions options;
   options.scheme = find_scheme("multinomial");
-  Cloud<double> cloud(1, 60);
+  Cloud<double> cloud(1, std::make_shared<Membership>(Groups(60, 3)));
   for (std::size_t i = 0; i < 60; ++i) cloud.x.component(0)[i] = static_cast<double>(i % 20);
   GroupSelector<double>(options, groups_of(Exchange::kNone)).select(cloud, 0, Draws{1, 1});
   const auto x = cloud.x.component(0);

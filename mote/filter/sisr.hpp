@@ -3,6 +3,7 @@
 /// alone.
 
 #include <memory>
+#include <optional>
 
 #include "mote/filter/groups.hpp"
 #include "mote/filter/settle.hpp"
@@ -15,16 +16,18 @@ namespace mote {
 ///   x^i ~ g(. | x^i_{t-1}, y);   w^i = W^i_{t-1} p(y | x^i) p(x^i | x^i_{t-1}) / g(x^i | x^i_{t-1}, y)
 ///   evidence = sum w^i;   estimates from (x, w) before selection
 ///
-/// shape   N particles; R is the number type of states and likelihoods, weights are double; `runner`, who runs the
-///         stages of a step, outlives the filter
+/// shape   N particles in groups, `members` says which of them are here; R is the number type of states and
+///         likelihoods, weights are double; `runner`, who runs the stages of a step, outlives the filter. Where other
+///         processes have groups, too, all of them call weighted() if one does
 /// error   none; a collapsed step is reported, see OnCollapse
 /// cost    O(N) a step; memory about (2 D + 3) 8 N bytes
 /// source  docs/filters.md (F3) to (F6), (F27); IMH-HW (4)-(6); FPGA (5)-(7)
 template <Model M, class R = double, class G = Prior>
 class ImportanceFilter final : public Filter {
  public:
-  ImportanceFilter(M model, std::size_t particles, std::uint64_t seed, std::unique_ptr<Selector<R>> selector,
-                   OnCollapse on_collapse, StageRunner& runner = stage_by_stage())
+  ImportanceFilter(M model, std::shared_ptr<const Membership> members, std::uint64_t seed,
+                   std::unique_ptr<Selector<R>> selector, OnCollapse on_collapse,
+                   StageRunner& runner = stage_by_stage())
       : model_(std::move(model)),
         proposal_(make_proposal<G>(model_)),
         seed_(seed),
@@ -32,8 +35,8 @@ class ImportanceFilter final : public Filter {
         on_collapse_(on_collapse),
         runner_(&runner),
         moves_(runner.proposers()),
-        cloud_(model_.states().size(), particles) {
-    draw_prior(model_, cloud_.x, draws(0));
+        cloud_(model_.states().size(), std::move(members)) {
+    draw_prior(model_, cloud_.x, draws(0), Purpose::kPrior, cloud_.members->offset());
   }
 
   StepReport predict(Step t) override {
@@ -41,7 +44,7 @@ class ImportanceFilter final : public Filter {
         [&](DrawCursor<R>& at, Stretch stretch) { move(model_, t, cloud_.x, at, stretch.first, stretch.last); }, {});
     // carried weights stay as they are: after a w / a selection their sum is 1 only in the mean, and belongs to the
     // evidence
-    return told(settled(judge(cloud_.log_weights, cloud_.weights), false));
+    return told(settled(judge(cloud_), false));
   }
 
   StepReport update(Step t, Rows<double> rows) override {
@@ -61,7 +64,24 @@ class ImportanceFilter final : public Filter {
     report.traffic = done.traffic;
   }
 
-  WeightedSet weighted() const override { return {&cloud_.x, cloud_.weights, total_}; }
+  WeightedSet weighted() const override {
+    if (cloud_.members->has_all()) return {&cloud_.x, cloud_.weights, total_};
+    return with_others();
+  }
+
+  Moments moments(std::size_t d, bool angle) const override {
+    const Membership& members = *cloud_.members;
+    const std::span<const R> x = cloud_.x.component(d);
+    const auto mean_of = [&](auto&& f) {
+      return members.sum(members.by_group([&](std::size_t first, std::size_t n) {
+        return ordered_sum(n, [&](std::size_t i) {
+          const double w = cloud_.weights[first + i];
+          return w > 0 ? w * f(static_cast<double>(x[first + i])) : 0.0;
+        });
+      })) / total_;
+    };
+    return moments_by(mean_of, angle);
+  }
 
   void keep(Archive& archive) override {
     archive(cloud_.x);
@@ -70,6 +90,21 @@ class ImportanceFilter final : public Filter {
 
  private:
   Draws draws(Step t) const { return {seed_, static_cast<std::uint32_t>(t)}; }
+
+  /// The particles of all groups.
+  WeightedSet with_others() const {
+    const auto place = static_cast<std::ptrdiff_t>(cloud_.members->offset());
+    if (!everybody_) everybody_.emplace(cloud_.x.dimensions(), cloud_.all());
+    for (std::size_t d = 0; d < cloud_.x.dimensions(); ++d) {
+      const std::span<R> column = everybody_->component(d);
+      std::copy_n(cloud_.x.component(d).begin(), cloud_.size(), column.begin() + place);
+      cloud_.members->complete(std::as_writable_bytes(column));
+    }
+    all_weights_.resize(cloud_.all());
+    std::copy(cloud_.weights.begin(), cloud_.weights.end(), all_weights_.begin() + place);
+    cloud_.members->complete(std::as_writable_bytes(std::span(all_weights_)));
+    return {&*everybody_, all_weights_, total_};
+  }
 
   StateOf<M, R> some() const {
     auto x = blank_state<R>(model_);
@@ -85,7 +120,7 @@ class ImportanceFilter final : public Filter {
                   {{all}},
                   [&](std::size_t proposer, std::size_t, Stretch stretch) {
                     DrawCursor<R>& at = moves_[proposer];
-                    at.go(draws(t), Purpose::kMove, stretch.first, words);
+                    at.go(draws(t), Purpose::kMove, cloud_.members->offset() + stretch.first, words);
                     propose(at, stretch);
                   },
                   std::move(weigh),
@@ -106,6 +141,8 @@ class ImportanceFilter final : public Filter {
   std::vector<DrawCursor<R>> moves_;  // where each proposer is in the draws
   Cloud<R> cloud_;
   double total_ = 0;
+  mutable std::optional<Particles<R>> everybody_;  // of other processes, too, once asked for
+  mutable std::vector<double> all_weights_;
 };
 
 /// SISR: importance filter that resamples the whole set when its effective sample size falls to the threshold.
@@ -114,15 +151,19 @@ std::unique_ptr<Filter> make_sisr(M model, std::size_t particles, std::uint64_t 
                                   const SelectionOptions& selection = {}, OnCollapse on_collapse = OnCollapse::kStop,
                                   StageRunner& runner = stage_by_stage()) {
   return std::make_unique<ImportanceFilter<M, R, G>>(
-      std::move(model), particles, seed, std::make_unique<WholeSelector<R>>(selection), on_collapse, runner);
+      std::move(model), std::make_shared<Membership>(Groups(particles, 1)), seed,
+      std::make_unique<WholeSelector<R>>(selection), on_collapse, runner);
 }
 
-/// The distributed filter: K groups, selection inside groups or over all.
+/// The distributed filter: K groups, selection inside groups or over all; `members`, if other processes have some of
+/// them.
 template <class R = double, class G = Prior, Model M>
 std::unique_ptr<Filter> make_distributed(M model, std::size_t particles, std::uint64_t seed, const GroupOptions& groups,
                                          const SelectionOptions& selection = {},
-                                         OnCollapse on_collapse = OnCollapse::kStop) {
-  return std::make_unique<ImportanceFilter<M, R, G>>(std::move(model), particles, seed,
+                                         OnCollapse on_collapse = OnCollapse::kStop,
+                                         std::shared_ptr<const Membership> members = nullptr) {
+  if (members == nullptr) members = std::make_shared<Membership>(Groups(particles, groups.groups));
+  return std::make_unique<ImportanceFilter<M, R, G>>(std::move(model), std::move(members), seed,
                                                      make_group_selector<R>(selection, groups), on_collapse);
 }
 

@@ -59,7 +59,7 @@ class QuasiFilter final : public Filter {
 
   StepReport predict(Step t) override {
     move_by_points(Prior{}, t, {});
-    return told(settled(normalise(cloud_.log_weights, cloud_.weights), false));
+    return told(settled(normalise(cloud_), false));
   }
 
   StepReport update(Step t, Rows<double> rows) override {

@@ -13,6 +13,7 @@ namespace mote {
 class Groups {
  public:
   Groups(std::size_t particles, std::size_t groups) : particles_(particles), groups_(groups) {}
+  std::size_t particles() const { return particles_; }
   std::size_t count() const { return groups_; }
   std::size_t first(std::size_t k) const { return k * (particles_ / groups_) + std::min(k, particles_ % groups_); }
   std::size_t size(std::size_t k) const { return first(k + 1) - first(k); }

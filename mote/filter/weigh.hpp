@@ -72,12 +72,4 @@ inline Judgement judge(std::span<const double> log_weights, std::span<double> we
   return {largest + std::log(total), total, effective_sample_size(weights), false};
 }
 
-/// As judge(), and normalises the log weights: their log-sum-exp becomes 0.
-inline Judgement normalise(std::span<double> log_weights, std::span<double> weights) {
-  const Judgement judgement = judge(log_weights, weights);
-  if (!judgement.collapsed)
-    for (double& l : log_weights) l -= judgement.log_sum;
-  return judgement;
-}
-
 }  // namespace mote

@@ -9,10 +9,18 @@
 #include "mote/filter/sisr.hpp"
 #include "mote/filter/sqmc.hpp"
 #include "mote/software/proposals.hpp"
+#include "mote/software/team_membership.hpp"
 
 namespace mote {
 
 namespace reference {
+
+/// Which groups of a plan are here: all, unless a team shares them.
+inline std::shared_ptr<const Membership> members(const Plan& plan) {
+  const Groups groups(plan.particles, plan.groups.groups);
+  if (plan.team == nullptr) return std::make_shared<Membership>(groups);
+  return std::make_shared<TeamMembership>(groups, *plan.team);
+}
 
 template <class R, class G, Model M>
 std::unique_ptr<Filter> make(const M& model, const Plan& plan) {
@@ -24,7 +32,8 @@ std::unique_ptr<Filter> make(const M& model, const Plan& plan) {
     case FilterKind::kAuxiliary:
       return make_auxiliary<R, G>(model, plan.particles, plan.seed, plan.chain, plan.on_collapse);
     case FilterKind::kDistributed:
-      return make_distributed<R, G>(model, plan.particles, plan.seed, plan.groups, plan.selection, plan.on_collapse);
+      return make_distributed<R, G>(model, plan.particles, plan.seed, plan.groups, plan.selection, plan.on_collapse,
+                                    members(plan));
     case FilterKind::kSqmc:
       return make_sqmc<R, G>(model, plan.particles, plan.seed, plan.on_collapse);
     case FilterKind::kEkf:

@@ -20,6 +20,7 @@ class CatalogueModelOf final : public CatalogueModel {
     switch (engine_of(plan)) {
       case Engine::kMpi:
         if (plan.team == nullptr) refuse_without_team(where);
+        if (plan.filter == FilterKind::kDistributed) return make_reference_filter(model_, plan, where);
         [[fallthrough]];
       case Engine::kSimd:
         return simd_filter(model_, plan, where);
