@@ -67,7 +67,7 @@ TEST(ClipItems, AListOfParticlesIsASeriesOfRuns) {
   EXPECT_EQ(item.runs[0].name, "all 30");
   EXPECT_EQ(item.runs[1].name, "all 60");
   EXPECT_EQ(item.runs[1].series, "all");
-  EXPECT_EQ(item.runs[1].particles, 60);
+  EXPECT_EQ(item.runs[1].number, 60);
   EXPECT_EQ(item.runs[2].series, "");
   EXPECT_EQ(reproduce::Laboratory(item).work(), 2U + 2 * 2U + 1U);  // overlap, enough, frames
   EXPECT_EQ(reproduce::script_for(item), "");

@@ -59,6 +59,14 @@ TEST(ReproduceDoor, TheSameNumbersEveryTime) {
     EXPECT_EQ(press.read("one" + file), press.read("two" + file));
 }
 
+TEST(ReproduceDoor, TakesAsManyRepeatsAsAsked) {
+  const Press press;
+  press.add("imh-hw", "a.toml", sample_item());
+  ASSERT_EQ(press.reproduce("imh-hw --out r --repeats 5").code, 0);
+  EXPECT_NE(press.comparison("r")[0]["note"].get<std::string>().find("; 5 repeats"), std::string::npos);
+  EXPECT_EQ(press.reproduce("imh-hw --out r --repeats 1").code, 2);
+}
+
 TEST(ReproduceDoor, SaysWhenAPaperHasNoItems) {
   const Press press;
   press.add("imh-hw", "README.md", "nothing yet");

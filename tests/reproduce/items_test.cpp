@@ -137,6 +137,105 @@ within = 0.6
   EXPECT_NEAR(outcome.results.back().ratio.value(), outcome.results.back().ours / 0.5, 1e-12);
 }
 
+/// Groups of particles on the growth model, compared with what is exact.
+std::string groups_item(const std::string& figure = "against = \"bytes_per_step\"\nstate = \"x\"\nrepeats = 3\n") {
+  return R"(item = "Fig. 3"
+title = "groups"
+source = "a test"
+printed = "nothing"
+[simulate]
+model = "ungm"
+steps = 20
+[[run]]
+name = "local"
+options = ["--filter", "distributed", "-n", "64", "--groups", "16"]
+[[run]]
+name = "append"
+options = ["--filter", "distributed", "-n", "64", "--groups", "16", "--exchange", "append"]
+sweep = "--exchange-count"
+values = [1, 4]
+[[run]]
+name = "global"
+options = ["--filter", "distributed", "-n", "64", "--groups", "16", "--group-resampling", "global"]
+[[compare]]
+name = "recovered"
+kind = "recovered"
+runs = ["local", "append 1", "global"]
+state = "x"
+over = "median"
+repeats = 3
+at_least = 0
+[[compare]]
+name = "error"
+kind = "reference-error"
+runs = ["local", "global"]
+state = "x"
+repeats = 3
+at_least = 0
+[[compare]]
+name = "bytes"
+kind = "summary"
+key = "bytes_per_step"
+runs = ["append 4"]
+repeats = 3
+at_least = 1024
+at_most = 1024
+[[figure]]
+title = "error"
+)" + figure;
+}
+
+TEST(GroupItems, CompareWithThePosteriorMean) {
+  const Scratch scratch;
+  const Item item = item_with(scratch, groups_item());
+  ASSERT_EQ(item.runs.size(), 4U);
+  EXPECT_EQ(item.runs[2].name, "append 4");
+  EXPECT_EQ(item.runs[2].series, "append");
+  EXPECT_EQ(item.runs[2].options.back(), "4");
+  const Outcome outcome = regenerated(item);
+  ASSERT_EQ(outcome.results.size(), 3U);
+  const auto& rows = outcome.errors.at("error");
+  ASSERT_EQ(rows.size(), 4U);
+  // the figure and the comparison have made the same runs: their medians agree
+  EXPECT_NEAR(outcome.results[0].ours, (rows[0].error - rows[1].error) / (rows[0].error - rows[3].error), 1e-12);
+  EXPECT_TRUE(outcome.results[1].standard_error.has_value());
+  EXPECT_TRUE(outcome.results[2].holds) << "16 groups send 4 particles of 8 bytes and their weights: "
+                                        << outcome.results[2].ours;
+  EXPECT_EQ(rows[0].bytes, 0);
+  EXPECT_EQ(rows[1].messages, 16);
+  for (const auto& row : rows) EXPECT_TRUE(row.interval.low <= row.error && row.error <= row.interval.high) << row.run;
+  const auto chart = reproduce::chart_of(item, item.figures.front(), outcome);
+  ASSERT_EQ(chart.series.size(), 3U) << "local across, append as a line, global as a point";
+  EXPECT_EQ(chart.series[0].x.size(), 2U);
+  EXPECT_EQ(chart.series[1].name, "append");
+  EXPECT_EQ(chart.series[1].x, (std::vector<double>{256, 1024}));
+  EXPECT_EQ(reproduce::figure_csv(outcome).substr(0, 11), "figure,run,");
+}
+
+TEST(GroupItems, AreRefusedByLine) {
+  const Scratch scratch;
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {groups_item("against = \"money\"\nstate = \"x\"\n"), "one of bytes_per_step, messages_per_step, number"},
+      {groups_item("against = \"number\"\n"), "\"state\": expected the state whose error is drawn"},
+      {groups_item("against = \"number\"\nstate = \"position\"\n"), "\"state\": expected a model with x and y"},
+      {groups_item("against = \"number\"\nstate = \"x\"\nruns = [\"no\"]\n"), "names of the item's runs, or of series"},
+      {groups_item("state = \"x\"\nrepeats = 3\n"), "\"repeats\": expected"},
+  };
+  for (const auto& [text, says] : cases) try {
+      const Item item = item_with(scratch, text);
+      const reproduce::Laboratory laboratory(item);
+      ADD_FAILURE() << "accepted: " << says;
+    } catch (const Refusal& refusal) {
+      EXPECT_NE(std::string(refusal.what()).find(says), std::string::npos) << refusal.what();
+    }
+  std::string lonely = groups_item();
+  lonely.replace(lonely.find("sweep = "), 8, "# ");
+  EXPECT_THROW(item_with(scratch, lonely), Refusal);
+  std::string two = groups_item();
+  two.replace(two.find("\"append 1\", "), 12, "");
+  EXPECT_THROW(item_with(scratch, two), Refusal);
+}
+
 struct Broken {
   std::string run, compare, says;
 };

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -54,11 +55,14 @@ void make_folder(const std::string& path) {
 std::string file_name(const Item& item) { return slug(item.paper + "-" + item.name); }
 
 /// Every item of the papers, read and checked before the first one runs.
-std::vector<Laboratory> laboratories_for(const std::vector<std::string>& papers, const fs::path& folder) {
+std::vector<Laboratory> laboratories_for(const std::vector<std::string>& papers, const fs::path& folder,
+                                         std::optional<int> repeats) {
   std::vector<Laboratory> all;
   for (const std::string& paper : papers)
     for (const fs::path& file : items_of(folder / paper)) {
       Item item = read_item(file.string(), paper);
+      for (Comparison& comparison : item.comparisons) comparison.repeats = repeats.value_or(comparison.repeats);
+      for (Figure& figure : item.figures) figure.repeats = repeats.value_or(figure.repeats);
       for (const Laboratory& other : all)
         if (file_name(other.item()) == file_name(item))
           throw Refusal(ExitCode::kBadData, {item.file, "\"item\"", "a name that no other item has",
@@ -109,7 +113,9 @@ ExitCode run_reproduce(const Arguments& arguments) {
       choice == kPapers.size() ? kPapers : std::vector<std::string>{kPapers[choice]};
   const std::string out =
       arguments.required("--out", "a folder for figures, page and comparison.json", "Pass --out reproduced.");
-  auto laboratories = laboratories_for(papers, papers_folder(arguments.where()));
+  std::optional<int> repeats;
+  if (arguments.given("--repeats")) repeats = static_cast<int>(arguments.integer("--repeats", 2, 10'000));
+  auto laboratories = laboratories_for(papers, papers_folder(arguments.where()), repeats);
   make_folder(out);
   for (const std::string& paper : papers)
     if (std::none_of(laboratories.begin(), laboratories.end(),
@@ -128,13 +134,15 @@ ExitCode run_reproduce(const Arguments& arguments) {
 }  // namespace
 
 Command reproduce_command() {
-  return {"reproduce",
-          "Regenerate the papers' figures and tables",
-          {{"PAPER", "imh-hw, fpga, mixed, imh-opt, ppf or all"}},
-          {{"--out", "DIR", "", "folder for figures (CSV), index.html and comparison.json", "Output"}},
-          run_reproduce,
-          "Items are data: papers/<name>/*.toml (papers/README.md says how). One that does not hold is a result, not "
-          "an error."};
+  return {
+      "reproduce",
+      "Regenerate the papers' figures and tables",
+      {{"PAPER", "imh-hw, fpga, mixed, imh-opt, ppf or all"}},
+      {{"--out", "DIR", "", "folder for figures (CSV), index.html and comparison.json", "Output"},
+       {"--repeats", "R", "", "repeats of every comparison and figure, from 2 to 10000 [each item's own]", "Output"}},
+      run_reproduce,
+      "Items are data: papers/<name>/*.toml (papers/README.md says how). One that does not hold is a result, not "
+      "an error."};
 }
 
 }  // namespace mote

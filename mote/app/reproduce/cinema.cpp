@@ -71,7 +71,7 @@ Cinema::Cinema(const Item& item)
       data_(data_folder(item.file)) {
   for (const Run& run : item.runs) {
     const Plan plan = plan_of(clip_, run);
-    benches_.push_back({run, plan.seed, run.particles > 0 ? run.particles : static_cast<int>(plan.particles)});
+    benches_.push_back({run, plan.seed, run.number > 0 ? run.number : static_cast<int>(plan.particles)});
   }
 }
 

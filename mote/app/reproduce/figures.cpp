@@ -106,6 +106,58 @@ void draw_sweep(Chart& chart, const Figure& figure, const Outcome& outcome) {
   }
 }
 
+/// The name of what an error is drawn against.
+std::string against_text(const Item& item, const std::vector<ErrorRow>& rows, const std::string& against) {
+  if (against == "bytes_per_step") return "bytes a step between groups (none: a line across)";
+  if (against == "messages_per_step") return "messages a step between groups (none: a line across)";
+  for (const Run& run : item.runs)
+    if (!run.sweep.empty() && std::any_of(rows.begin(), rows.end(), [&](auto& row) { return row.run == run.name; }))
+      return run.sweep;
+  return against;
+}
+
+/// Median error to the posterior mean, a line for each series, a point for each other run; what has no place on the
+/// logarithmic axis is a line across.
+void draw_errors(Chart& chart, const Item& item, const Figure& figure, const Outcome& outcome) {
+  const std::vector<ErrorRow>& rows = outcome.errors.at(figure.title);
+  chart.x_label = against_text(item, rows, figure.against);
+  chart.y_label = "median MSE of " + figure.state + " to the posterior mean";
+  chart.log_x = chart.log_y = true;
+  const auto place = [&](const ErrorRow& row) {
+    if (figure.against == "number") return static_cast<double>(row.number);
+    return figure.against == "bytes_per_step" ? row.bytes : row.messages;
+  };
+  double least = kInfinity;
+  double most = 0;
+  for (const ErrorRow& row : rows)
+    if (place(row) > 0) least = std::min(least, place(row)), most = std::max(most, place(row));
+  for (const ErrorRow& row : rows) {
+    const std::string& name = row.series.empty() ? row.run : row.series;
+    if (chart.series.empty() || chart.series.back().name != name)
+      chart.series.push_back(
+          {.name = name, .mark = row.series.empty() ? Series::Mark::kPoints : Series::Mark::kMarkedLine});
+    Series& series = chart.series.back();
+    if (place(row) > 0) {
+      add(series, place(row), row.error);
+    } else if (row.series.empty() && most > 0) {
+      series.mark = Series::Mark::kLine;
+      for (const double x : {least, most}) add(series, x, row.error);
+    }
+  }
+}
+
+std::string errors_csv(const Outcome& outcome) {
+  std::string csv = "figure,run,number,median_mse,low,high,messages_per_step,bytes_per_step\n";
+  for (const auto& [title, rows] : outcome.errors)
+    for (const ErrorRow& row : rows) {
+      csv += slug(title) + "," + slug(row.run) + "," + std::to_string(row.number);
+      for (const double value : {row.error, row.interval.low, row.interval.high, row.messages, row.bytes})
+        csv += "," + exact(value);
+      csv += '\n';
+    }
+  return csv;
+}
+
 std::string tracks_csv(const Outcome& outcome) {
   std::string csv = "run,particles,repeat";
   for (const std::string_view key : kTrackKeys) csv += "," + std::string(key);
@@ -133,6 +185,8 @@ Chart chart_of(const Item& item, const Figure& figure, const Outcome& outcome) {
     draw_tradeoff(chart, figure, outcome);
   } else if (item.clip) {
     draw_sweep(chart, figure, outcome);
+  } else if (!figure.against.empty()) {
+    draw_errors(chart, item, figure, outcome);
   } else if (figure.state.empty()) {
     draw_track(chart, figure, outcome);
   } else {
@@ -144,6 +198,7 @@ Chart chart_of(const Item& item, const Figure& figure, const Outcome& outcome) {
 std::string figure_csv(const Outcome& outcome) {
   if (!outcome.tradeoffs.empty()) return tradeoff_csv(outcome);
   if (!outcome.tracks.empty()) return tracks_csv(outcome);
+  if (!outcome.errors.empty()) return errors_csv(outcome);
   std::string csv = "t";
   for (const Quantity& state : outcome.states) csv += ",truth_" + state.name;
   for (const auto& [name, record] : outcome.records)

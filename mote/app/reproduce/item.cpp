@@ -18,15 +18,17 @@ constexpr std::int64_t kMostSteps = 1'000'000;
 constexpr std::int64_t kMostRepeats = 10'000;
 
 /// Kinds in the order of the enumeration.
-constexpr std::array<std::string_view, 12> kKinds{"mean-difference", "mean-spread",     "rmse",    "normalised-error",
-                                                  "final-bias",      "evidence-spread", "summary", "resample-error",
-                                                  "resample-time",   "resample-cost",   "track",   "particles-enough"};
+constexpr std::array<std::string_view, 14> kKinds{
+    "mean-difference", "mean-spread",     "rmse",    "normalised-error", "final-bias",    "reference-error",
+    "recovered",       "evidence-spread", "summary", "resample-error",   "resample-time", "resample-cost",
+    "track",           "particles-enough"};
 constexpr std::array<std::string_view, 3> kUnits{"standard-error", "posterior-sd", "absolute"};
 constexpr std::array<std::string_view, 2> kMiddles{"mean", "median"};
 
 bool reads_state(Kind kind) { return kind < Kind::kEvidenceSpread; }
 bool averages(Kind kind) {
-  return kind == Kind::kRmse || kind == Kind::kFinalBias || (kind >= Kind::kSummary && kind <= Kind::kTrack);
+  return kind == Kind::kRmse || (kind >= Kind::kFinalBias && kind <= Kind::kRecovered) ||
+         (kind >= Kind::kSummary && kind <= Kind::kTrack);
 }
 
 Source simulated_from(Fields fields) {
@@ -98,16 +100,21 @@ std::vector<int> rising(Fields& fields, std::string_view key) {
   return list;
 }
 
-/// The run of a table, or a run for each number of its list of particles.
+/// The run of a table, or a run for each number of its list: of particles on a clip, of an option's values else.
 std::vector<Run> runs_from(Fields fields, const Item& item) {
   Run run{fields.where(), fields.text("name"), fields.texts("options"), {}};
   if (!item.clip) run.settings = fields.texts("set");
+  const std::string swept = item.clip ? "" : fields.text_or("sweep", "");
+  const std::vector<int> numbers = rising(fields, item.clip ? "particles" : "values");
+  if (!item.clip && swept.empty() != numbers.empty()) fields.refuse("sweep", "an option, and a list of its values");
   std::vector<Run> runs;
-  for (const int particles : item.clip ? rising(fields, "particles") : std::vector<int>{}) {
+  for (const int number : numbers) {
     Run& one = runs.emplace_back(run);
-    one.name = fmt::format("{} {}", run.name, particles);
+    one.name = fmt::format("{} {}", run.name, number);
     one.series = run.name;
-    one.particles = particles;
+    one.number = number;
+    one.sweep = swept;
+    if (!swept.empty()) one.options.insert(one.options.end(), {swept, std::to_string(number)});
   }
   if (runs.empty()) runs.push_back(run);
   for (const Run& one : runs)
@@ -124,6 +131,12 @@ void check_names(const Fields& fields, const std::vector<std::string>& names, co
       fields.refuse("runs", known == &Run::name ? "names of the item's runs" : "names of runs with lists of particles");
 }
 
+void check_names_or_series(const Fields& fields, const std::vector<std::string>& names, const std::vector<Run>& runs) {
+  for (const std::string& name : names)
+    if (std::none_of(runs.begin(), runs.end(), [&](const Run& r) { return r.name == name || r.series == name; }))
+      fields.refuse("runs", "names of the item's runs, or of series of them");
+}
+
 Figure figure_from(Fields fields, const Item& item) {
   Figure figure{fields.where(), fields.text("title")};
   if (item.weights) {
@@ -133,10 +146,19 @@ Figure figure_from(Fields fields, const Item& item) {
   } else {
     figure.state = fields.text_or("state", "");
     figure.error = fields.yes("error");
+    if (fields.has("against")) {
+      figure.against = kAgainst[fields.choice("against", kAgainst)];
+      figure.repeats = static_cast<int>(fields.integer("repeats", 2, kMostRepeats, 20));
+    }
   }
   if (figure.error && figure.state.empty()) fields.refuse("error", "a state whose error is drawn");
   figure.runs = fields.texts("runs");
-  check_names(fields, figure.runs, item.runs, item.clip && figure.frames.empty() ? &Run::series : &Run::name);
+  if (!figure.against.empty()) {
+    if (figure.state.empty()) fields.refuse("state", "the state whose error is drawn");
+    check_names_or_series(fields, figure.runs, item.runs);
+  } else {
+    check_names(fields, figure.runs, item.runs, item.clip && figure.frames.empty() ? &Run::series : &Run::name);
+  }
   if (!figure.frames.empty() && figure.runs.size() != 1) fields.refuse("runs", "the one run whose frames are shown");
   fields.finish();
   return figure;
@@ -144,9 +166,11 @@ Figure figure_from(Fields fields, const Item& item) {
 
 void read_runs(Fields& fields, const std::vector<Run>& runs, Comparison& c) {
   c.runs = fields.texts("runs");
-  const std::size_t least = c.kind == Kind::kMeanDifference ? 2 : 1;
-  if (c.runs.size() < least || c.runs.size() > 2)
-    fields.refuse("runs", least == 2 ? "a list of two runs" : "a list of one run, or of two");
+  const std::size_t least = c.kind == Kind::kRecovered ? 3 : c.kind == Kind::kMeanDifference ? 2 : 1;
+  if (c.runs.size() < least || c.runs.size() > std::max<std::size_t>(least, 2))
+    fields.refuse("runs", least == 3   ? "a list of three runs"
+                          : least == 2 ? "a list of two runs"
+                                       : "a list of one run, or of two");
   check_names(fields, c.runs, runs, c.kind == Kind::kParticlesEnough ? &Run::series : &Run::name);
 }
 
@@ -170,7 +194,7 @@ Kind kind_from(Fields& fields, const Item& item) {
   const std::size_t first = static_cast<std::size_t>(item.weights ? Kind::kResampleError
                                                      : item.clip  ? Kind::kTrack
                                                                   : Kind{});
-  const std::size_t count = item.weights ? 3 : item.clip ? 2 : 7;
+  const std::size_t count = item.weights ? 3 : item.clip ? 2 : 9;
   const auto known = std::span(kKinds).subspan(first, count);
   if (!fields.has("kind")) fields.refuse("kind", fmt::format("one of {}", fmt::join(known, ", ")));
   return static_cast<Kind>(fields.choice("kind", known) + first);
@@ -245,6 +269,16 @@ std::string meaning_of(const Comparison& c) {
       return "Error in deviations: RMS over time and recordings of (mean - truth) / posterior deviation (1 = exact)";
     case Kind::kFinalBias:
       return "Final bias: mean - truth at the last step" + over;
+    case Kind::kReferenceError:
+      return fmt::format(
+          "Error to the posterior mean: mean square over time of mean - posterior mean, the exact one "
+          "or that of a large run{}",
+          over);
+    case Kind::kRecovered:
+      return fmt::format(
+          "Recovered: (a - b) / (a - c) of the errors a, b, c to the posterior mean of three runs, mean squares over "
+          "time{}",
+          over);
     case Kind::kEvidenceSpread:
       return "Spread of the log evidence: its deviation over repeats on one recording (nat)";
     case Kind::kSummary:

@@ -43,12 +43,14 @@ struct Run {
   std::string name;
   std::vector<std::string> options;
   std::vector<std::string> settings;  ///< settings of the filter's model where they differ from the recording's
-  std::string series = {};            ///< of runs that differ in their particles: the name of the table they stand in
-  int particles = 0;                  ///< of such a run
+  std::string series = {};            ///< of runs that differ in a number: the name of the table they stand in
+  int number = 0;                     ///< of such a run: its particles on a clip, else the value of `sweep`
+  std::string sweep = {};             ///< the option that the series sweeps
 };
 
 /// What is computed and compared with the paper. With one run the quantity itself; with two, the first run's over the
-/// second's, but for kMeanDifference, which needs two, and kNormalisedError. kParticlesEnough takes series of runs.
+/// second's, but for kMeanDifference, which needs two, kNormalisedError, and kRecovered, which needs three.
+/// kParticlesEnough takes series of runs.
 struct Comparison {
   enum class Kind {
     kMeanDifference,   ///< RMS over time of the difference of two runs' mean estimates, each averaged over repeats
@@ -56,6 +58,8 @@ struct Comparison {
     kRmse,             ///< RMS over time of mean - truth, on a new recording each repeat
     kNormalisedError,  ///< RMS over time and repeats of (mean - truth) / the last run's posterior sd; 1 = calibrated
     kFinalBias,        ///< mean - truth at the last step
+    kReferenceError,   ///< mean square over time of mean - posterior mean, on a new recording each repeat
+    kRecovered,        ///< of that error, what the second run wins back of what the first loses against the third
     kEvidenceSpread,   ///< standard deviation of the log evidence over repeats on one recording
     kSummary,          ///< a figure of the run's summary
     kResampleError,    ///< on given weights: mean square error of the resampled mean, in multinomial variances
@@ -93,6 +97,9 @@ struct Figure {
   std::vector<std::string> runs = {};  ///< drawn; empty: all
   double ess = 0;                      ///< of an item on weights: error against time at this level
   std::vector<int> frames = {};  ///< of an item on a clip: these frames of a run; empty: centre error over particles
+  std::string against =
+      {};            ///< draw the error to the posterior mean against this: a key of kAgainst; `runs` may be series
+  int repeats = 20;  ///< of such a figure
 };
 
 /// One item.
@@ -107,8 +114,12 @@ struct Item {
 };
 
 /// The figures of a summary that a comparison may ask for.
-inline constexpr std::array<std::string_view, 5> kSummaryKeys{"log_evidence", "mean_ess", "acceptance", "collapses",
-                                                              "ns_per_particle_step"};
+inline constexpr std::array<std::string_view, 7> kSummaryKeys{
+    "log_evidence",         "mean_ess",          "acceptance",    "collapses",
+    "ns_per_particle_step", "messages_per_step", "bytes_per_step"};
+
+/// What an error may be drawn against: what the groups of a run send, or the number that its series sweeps.
+inline constexpr std::array<std::string_view, 3> kAgainst{"bytes_per_step", "messages_per_step", "number"};
 
 /// The figures of a track that a comparison may ask for; those of time are a particle's stages in microseconds, and how
 /// much longer than the others its weight takes.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "mote/app/commands/plan_options.hpp"
+#include "mote/app/compare/contender.hpp"
 #include "mote/app/compare/statistics.hpp"
 #include "mote/app/files/recording_file.hpp"
 #include "mote/app/terminal/signals.hpp"
@@ -35,6 +36,15 @@ bool needs_truth(Kind kind) {
   return kind == Kind::kRmse || kind == Kind::kNormalisedError || kind == Kind::kFinalBias;
 }
 
+/// Takes "position" for the states x and y together.
+bool takes_position(Kind kind) {
+  return kind == Kind::kRmse || kind == Kind::kReferenceError || kind == Kind::kRecovered;
+}
+
+/// Stands for the posterior where no solver is known, its seed far from those of any repeat.
+constexpr std::string_view kLargeRun = "sisr -n 200000";
+constexpr std::uint64_t kLargeSeed = std::uint64_t{1} << 32U;
+
 /// Resamplings of one weight vector.
 constexpr std::size_t kResamplings = 200;
 
@@ -47,6 +57,8 @@ double summary_figure(const Summary& summary, const std::string& key) {
   if (key == "mean_ess") return summary.mean_ess;
   if (key == "acceptance") return summary.acceptance;
   if (key == "collapses") return static_cast<double>(summary.collapses);
+  if (key == "messages_per_step") return summary.traffic_per_step.messages;
+  if (key == "bytes_per_step") return summary.traffic_per_step.bytes;
   return summary.ns_per_particle_step;
 }
 
@@ -65,6 +77,7 @@ Laboratory::Laboratory(Item item) : item_(std::move(item)) {
   header_ = from.simulated() ? frame_header(from.columns) : read_table(from.observations).header;
   source_ = model_with(from.settings, from.where);
   states_ = source_->states();
+  solver_ = source_->solver();
   for (const Run& run : item_.runs) benches_.emplace(run.name, bench_for(run));
   scene(0);  // reads the data, so that its faults show before the work
   check_figures();
@@ -100,10 +113,10 @@ std::optional<std::size_t> Laboratory::place_of(const std::string& state) const 
 
 void Laboratory::check_figures() const {
   for (const Figure& figure : item_.figures) {
-    const bool drawn = figure.state.empty() ? place_of("x") && place_of("y") : place_of(figure.state).has_value();
-    if (drawn) continue;
+    const bool plane = figure.state.empty() || (figure.state == "position" && !figure.against.empty());
+    if (plane ? place_of("x") && place_of("y") : place_of(figure.state).has_value()) continue;
     throw Refusal(ExitCode::kBadData,
-                  {figure.where, "\"state\"", figure.state.empty() ? "a model with x and y" : "a state of the model",
+                  {figure.where, "\"state\"", plane ? "a model with x and y" : "a state of the model",
                    figure.state.empty() ? item_.recording.model : "\"" + figure.state + "\"", ""});
   }
 }
@@ -115,7 +128,7 @@ void Laboratory::check_comparisons() const {
     return d && truth.known.size() > *d && truth.known[*d];
   };
   for (const Comparison& c : item_.comparisons) {
-    const bool position = c.state == "position" && c.kind == Kind::kRmse && place_of("x") && place_of("y");
+    const bool position = c.state == "position" && takes_position(c.kind) && place_of("x") && place_of("y");
     if (!c.state.empty() && !position && !place_of(c.state))
       throw Refusal(ExitCode::kBadData, {c.where, "\"state\"", "a state of the model", "\"" + c.state + "\"", ""});
     if (needs_truth(c.kind) && !(position ? known("x") && known("y") : known(c.state)))
@@ -128,6 +141,8 @@ std::size_t Laboratory::work() const {
   std::size_t runs = item_.weights ? 0 : item_.runs.size();
   for (const Comparison& c : item_.comparisons)
     runs += (c.kind == Kind::kNormalisedError ? 1 : c.runs.size()) * static_cast<std::size_t>(c.repeats);
+  for (const Figure& figure : item_.figures)
+    if (!figure.against.empty()) runs += drawn_in(figure).size() * static_cast<std::size_t>(figure.repeats);
   return runs;
 }
 
@@ -234,6 +249,9 @@ std::vector<double> Laboratory::sample(const Comparison& c, std::uint64_t repeat
     }
     case Kind::kFinalBias:
       return {error(run.rows.back())};
+    case Kind::kReferenceError:
+    case Kind::kRecovered:
+      return {reference_error(run, repeat, c.state)};
     case Kind::kEvidenceSpread:
       return {summarise(run, nullptr).log_evidence};
     case Kind::kSummary:
@@ -246,6 +264,81 @@ std::vector<double> Laboratory::sample(const Comparison& c, std::uint64_t repeat
       break;  // of items on weights and clips
   }
   return {kNaN};
+}
+
+std::vector<std::size_t> Laboratory::places_of(const std::string& state) const {
+  if (state == "position") return {*place_of("x"), *place_of("y")};
+  return {*place_of(state)};
+}
+
+const std::vector<std::vector<double>>& Laboratory::posterior_means(std::uint64_t offset) {
+  if (!item_.recording.simulated()) offset = 0;
+  const auto [found, fresh] = posterior_means_.try_emplace(offset);
+  if (!fresh) return found->second;
+  if (solver_)
+    if (auto solution = solver_->solve(scene(offset).recording)) return found->second = std::move(solution->means);
+  refuse_when_stopped();
+  std::vector<std::string> no_notes;
+  Job job;
+  job.model_name = item_.recording.model;
+  job.model = model_with(item_.recording.settings, item_.recording.where);
+  job.recording = scene(offset).recording;
+  Plan plan = compare::reference_plan(std::string(kLargeRun), item_.file, no_notes);
+  plan.seed = kLargeSeed + offset;
+  for (const EstimateRow& row : run_job(job, plan, request_for(job, {}, item_.file), item_.file).rows) {
+    auto& means = found->second.emplace_back();
+    for (const Moments& m : row.states) means.push_back(m.mean);
+  }
+  return found->second;
+}
+
+double Laboratory::reference_error(const RunRecord& record, std::uint64_t offset, const std::string& state) {
+  const auto& means = posterior_means(offset);
+  double squares = 0;
+  for (std::size_t k = 0; k < record.rows.size(); ++k)
+    for (const std::size_t d : places_of(state)) {
+      const double e = record.rows[k].states[d].mean - means[k][d];
+      squares += std::pow(states_[d].angle ? numbers::wrap(e) : e, 2);
+    }
+  return squares / static_cast<double>(record.rows.size());
+}
+
+std::vector<const Run*> Laboratory::drawn_in(const Figure& figure) const {
+  std::vector<const Run*> drawn;
+  const auto named = [&](const std::string& name) {
+    return std::find(figure.runs.begin(), figure.runs.end(), name) != figure.runs.end();
+  };
+  for (const Run& run : item_.runs)
+    if (figure.runs.empty() || named(run.name) || named(run.series)) drawn.push_back(&run);
+  return drawn;
+}
+
+std::vector<ErrorRow> Laboratory::errors_of(const Figure& figure) {
+  std::vector<ErrorRow> rows;
+  for (const Run* run : drawn_in(figure))
+    rows.push_back({.run = run->name, .series = run->series, .number = run->number});
+  std::vector<std::vector<double>> errors(rows.size());
+  for (std::uint64_t r = 0; r < static_cast<std::uint64_t>(figure.repeats); ++r)
+    for (std::size_t i = 0; i < rows.size(); ++i) try {
+        ran_();
+        const RunRecord& record = this->record(rows[i].run, r, r);
+        errors[i].push_back(reference_error(record, r, figure.state));
+        const Traffic traffic = summarise(record, nullptr).traffic_per_step;
+        rows[i].messages += traffic.messages / figure.repeats;
+        rows[i].bytes += traffic.bytes / figure.repeats;
+      } catch (const Refusal& refusal) {
+        if (refusal.code() != ExitCode::kCollapsed) throw;
+        errors[i].push_back(kInfinity);
+      }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].error = compare::median(errors[i]);
+    rows[i].interval = compare::bootstrap({errors[i].size(), 1}, [&](std::span<const std::size_t> places) {
+      std::vector<double> drawn;
+      for (const std::size_t r : places) drawn.push_back(errors[i][r]);
+      return compare::median(std::move(drawn));
+    });
+  }
+  return rows;
 }
 
 Samples Laboratory::samples_of(const Comparison& c) {
@@ -266,11 +359,14 @@ Samples Laboratory::samples_of(const Comparison& c) {
 }
 
 Result Laboratory::judged(const Comparison& c) {
-  Result result{c, kNaN, std::nullopt, std::nullopt, false};
+  Result result;
+  result.asked = c;
+  result.ours = kNaN;
   try {
     const Samples samples = samples_of(c);
     result.ours = statistic(c, samples);
     result.standard_error = standard_error(c, samples);
+    result.interval = interval(c, samples);
   } catch (const Refusal& refusal) {
     if (refusal.code() != ExitCode::kCollapsed) throw;
   }
@@ -306,6 +402,8 @@ Outcome Laboratory::regenerate(const std::function<void()>& ran) {
   Outcome outcome;
   if (!item_.weights && !cinema_) run_filters(outcome);
   for (const Comparison& comparison : item_.comparisons) outcome.results.push_back(judged(comparison));
+  for (const Figure& figure : item_.figures)
+    if (!figure.against.empty()) outcome.errors[figure.title] = errors_of(figure);
   if (item_.weights) outcome.tradeoffs = tradeoffs();
   if (cinema_) show_clips(outcome);
   return outcome;

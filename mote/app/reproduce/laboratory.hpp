@@ -17,10 +17,11 @@ namespace mote::reproduce {
 /// A comparison with its result.
 struct Result {
   Comparison asked;
-  double ours;                           ///< NaN where a filter collapsed or the number does not exist
-  std::optional<double> standard_error;  ///< of `ours`, over the repeats
-  std::optional<double> ratio;           ///< ours / paper, where the paper prints a number
-  bool holds;
+  double ours = 0;                            ///< NaN where a filter collapsed or the number does not exist
+  std::optional<double> standard_error;       ///< of `ours`, over the repeats
+  std::optional<compare::Interval> interval;  ///< of 95 %, likewise, of what is formed of medians
+  std::optional<double> ratio;                ///< ours / paper, where the paper prints a number
+  bool holds = false;
 };
 
 /// What a resampler did on the weights of one level, as the comparisons' repeats saw it.
@@ -28,6 +29,15 @@ struct Tradeoff {
   std::string run;
   double ess;
   double error, ns;  ///< mean error, median time
+};
+
+/// The error of a run to the posterior mean, over the repeats of a figure, and what its groups sent.
+struct ErrorRow {
+  std::string run, series;
+  int number = 0;                       ///< of its series
+  double error = 0;                     ///< median
+  compare::Interval interval = {0, 0};  ///< of 95 %
+  double messages = 0, bytes = 0;       ///< a step, means
 };
 
 /// The runs of one item on its own recording, and the results of its comparisons.
@@ -40,11 +50,12 @@ struct Outcome {
   std::vector<Tradeoff> tradeoffs;                         ///< of an item on weights, instead of records
   std::vector<TrackRow> tracks;                            ///< of an item on a clip, likewise
   std::vector<report::Picture> pictures;                   ///< of an item on a clip
+  std::map<std::string, std::vector<ErrorRow>> errors;     ///< by title of a figure that draws them against something
   std::vector<Result> results;
 };
 
 /// One item at work. Repeat r adds r to the filter's seed and, where a kind asks for new recordings and the item
-/// simulates, to the recording's; a mean difference gives its two runs different filter seeds, the ratios the same. On
+/// simulates, to the recording's; a mean difference gives its two runs different filter seeds, the others the same. On
 /// weights, repeat r has its own weights, the same for all runs, which take turns.
 class Laboratory {
  public:
@@ -83,6 +94,11 @@ class Laboratory {
   Samples samples_of(const Comparison& comparison);
   std::vector<double> sample(const Comparison& comparison, std::uint64_t repeat, std::size_t side);
   std::vector<double> mean_estimates(const RunRecord& record, std::size_t state);
+  std::vector<std::size_t> places_of(const std::string& state) const;
+  const std::vector<std::vector<double>>& posterior_means(std::uint64_t offset);
+  double reference_error(const RunRecord& record, std::uint64_t offset, const std::string& state);
+  std::vector<const Run*> drawn_in(const Figure& figure) const;
+  std::vector<ErrorRow> errors_of(const Figure& figure);
   Result judged(const Comparison& comparison);
 
   Item item_;
@@ -93,7 +109,9 @@ class Laboratory {
   std::map<std::uint64_t, Scene> scenes_;
   std::map<std::tuple<std::string, std::uint64_t, std::uint64_t>, RunRecord> records_;
   std::map<Level, std::vector<Resampled>> resamplings_;  // by run
-  std::unique_ptr<Cinema> cinema_;                       // of an item on a clip
+  std::unique_ptr<referee::Solver> solver_;
+  std::map<std::uint64_t, std::vector<std::vector<double>>> posterior_means_;  // by recording, (T, D)
+  std::unique_ptr<Cinema> cinema_;                                             // of an item on a clip
   std::function<void()> ran_;
 };
 

@@ -20,8 +20,13 @@ std::string paper_text(const Comparison& c) {
   return "not printed";
 }
 
+std::string interval_text(const compare::Interval& interval) {
+  return fmt::format("[{:.3g}, {:.3g}]", interval.low, interval.high);
+}
+
 std::string ours_text(const Result& result) {
-  const std::string error = result.standard_error ? fmt::format(" ± {:.2g}", *result.standard_error) : "";
+  std::string error = result.standard_error ? fmt::format(" ± {:.2g}", *result.standard_error) : "";
+  if (result.interval) error = " " + interval_text(*result.interval);
   return std::isnan(result.ours) ? "no number" : fmt::format("{:.4g}{}", result.ours, error);
 }
 
@@ -29,6 +34,7 @@ std::string note_of(const Result& result) {
   const Comparison& c = result.asked;
   std::string note = fmt::format("{}; {} repeats", meaning_of(c), c.repeats);
   if (result.standard_error) note += fmt::format(", standard error {:.2g}", *result.standard_error);
+  if (result.interval) note += ", 95 % interval " + interval_text(*result.interval);
   return fmt::format("{}; holds when {}{}{}", note, condition_of(c), c.note.empty() ? "" : ". ", c.note);
 }
 
@@ -38,13 +44,14 @@ std::size_t holding(const Outcome& outcome) {
 }
 
 report::Table comparisons_table(const Item& item, const Outcome& outcome) {
-  report::Table table{
-      .title = name_of(item) + ": " + item.title,
-      .columns = {"Compared", "Paper", "Ours", "Std. error", "Ratio", "Holds when", "Holds", "Repeats"}};
+  report::Table table{.title = name_of(item) + ": " + item.title,
+                      .columns = {"Compared", "Paper", "Ours", "Error", "Ratio", "Holds when", "Holds", "Repeats"}};
   for (const Result& result : outcome.results)
     table.rows.push_back({result.asked.name, paper_text(result.asked),
                           std::isnan(result.ours) ? "no number" : fmt::format("{:.4g}", result.ours),
-                          result.standard_error ? fmt::format("{:.2g}", *result.standard_error) : "",
+                          result.standard_error ? fmt::format("{:.2g}", *result.standard_error)
+                          : result.interval     ? interval_text(*result.interval)
+                                                : "",
                           result.ratio ? fmt::format("{:.3g}", *result.ratio) : "", condition_of(result.asked),
                           result.holds ? "yes" : "NO", std::to_string(result.asked.repeats)});
   return table;
@@ -52,7 +59,9 @@ report::Table comparisons_table(const Item& item, const Outcome& outcome) {
 
 /// What the comparisons mean, each kind once, and what is said about single ones.
 std::vector<std::string> notes_on(const std::vector<Regenerated>& all) {
-  std::vector<std::string> notes{"Std. error: of our number, over its repeats (leaving out one at a time)."};
+  std::vector<std::string> notes{
+      "Error: of our number, over its repeats: its standard error (leaving out one at a time), or of medians a 95 % "
+      "interval [ ] (bootstrap)."};
   for (const auto& [item, outcome] : all)
     for (const Result& result : outcome.results)
       if (const std::string note = meaning_of(result.asked) + ".";

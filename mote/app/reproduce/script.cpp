@@ -24,7 +24,7 @@ std::string tracks_for(const Item& item) {
                           in_data(clip.truth), clip.frames);
     for (const auto& options : {clip.options, run.options})
       for (const std::string& option : options) script += " " + shell_word(option);
-    if (run.particles > 0) script += fmt::format(" --particles {}", run.particles);
+    if (run.number > 0) script += fmt::format(" --particles {}", run.number);
     script += fmt::format(" --summary {}-{}.json\n", slug(item.paper + "-" + item.name), slug(run.name));
   }
   return script;

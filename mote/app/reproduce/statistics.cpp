@@ -81,11 +81,22 @@ Samples without(const Samples& samples, std::size_t repeat) {
   return rest;
 }
 
+/// Each run's repeats at the given places.
+Samples drawn(const Samples& samples, std::span<const std::size_t> places) {
+  Samples some;
+  for (const Values& values : samples.values) {
+    Values& kept = some.values.emplace_back();
+    for (const std::size_t r : places) kept.push_back(values[r]);
+  }
+  return some;
+}
+
 }  // namespace
 
 double statistic(const Comparison& c, const Samples& samples) {
   if (c.kind == Kind::kMeanDifference) return mean_difference(c.unit, samples);
   const double first = of_one_run(c, samples, 0);
+  if (c.kind == Kind::kRecovered) return (first - of_one_run(c, samples, 1)) / (first - of_one_run(c, samples, 2));
   return samples.values.size() == 2 ? first / of_one_run(c, samples, 1) : first;
 }
 
@@ -98,6 +109,15 @@ std::optional<double> standard_error(const Comparison& c, const Samples& samples
   for (std::size_t r = 0; r < n; ++r) left.push_back({statistic(c, without(samples, r))});
   const auto count = static_cast<double>(n);
   return (count - 1) / std::sqrt(count) * spread(left);
+}
+
+std::optional<compare::Interval> interval(const Comparison& c, const Samples& samples) {
+  if (!c.median) return std::nullopt;
+  const compare::Interval ends = compare::bootstrap({samples.repeats(), 1}, [&](std::span<const std::size_t> places) {
+    return statistic(c, drawn(samples, places));
+  });
+  if (std::isnan(ends.low)) return std::nullopt;
+  return ends;
 }
 
 }  // namespace mote::reproduce

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "mote/app/compare/statistics.hpp"
 #include "mote/app/reproduce/item.hpp"
 
 namespace mote::reproduce {
@@ -27,6 +28,7 @@ struct Samples {
 ///                     unit: sqrt(mean_t (var a_t + var b_t) / R), or each difference by its posterior sd, or 1
 ///   mean-spread       sqrt(mean_t var a_t)
 ///   particles-enough  min {N_i: mean a_j <= (1 + slack) mean a_n for all j >= i},   a_j: errors with N_j particles
+///   recovered         (a - b) / (a - c),   a, b, c: mean or median of the three runs' errors
 ///   evidence-spread   sqrt(var a);   normalised-error   sqrt(mean a), a: mean squares;   the others: mean or median of
 ///   a
 ///
@@ -37,5 +39,9 @@ double statistic(const Comparison& comparison, const Samples& samples);
 /// Its standard error over the repeats, by leaving out one repeat at a time (jackknife); nothing for medians, for
 /// numbers of particles and for a mean difference in standard errors, which judges itself.
 std::optional<double> standard_error(const Comparison& comparison, const Samples& samples);
+
+/// Where a median, or what is formed of medians, lies 95 times of 100: by the bootstrap over the repeats, the runs
+/// paired; nothing for what has a standard error, and where a resampled number does not exist.
+std::optional<compare::Interval> interval(const Comparison& comparison, const Samples& samples);
 
 }  // namespace mote::reproduce
