@@ -322,7 +322,8 @@ class Pipeline::Floor {
     const auto begin = Clock::now();
     if (!failed_.load(std::memory_order_relaxed)) attempt(work);
     if (const double pace = benches_[stage].pace; pace > 0)
-      wait_until(begin + std::chrono::nanoseconds(std::llround(1e9 * pace * static_cast<double>(block.stretch.size()))));
+      wait_until(begin +
+                 std::chrono::nanoseconds(std::llround(1e9 * pace * static_cast<double>(block.stretch.size()))));
     const auto end = Clock::now();
     account.busy += end - begin;
     ++account.blocks;
