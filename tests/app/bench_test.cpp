@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(
     Doors, BenchRefuses,
     ::testing::Values(
         BenchRefusal{"UnknownTask", "ungm-flaot",
-                     R"(^mote bench: TASK: expected some of ungm-float, .*, threads, got "ungm-flaot"\. Did you mean)"},
+                     R"(^mote bench: TASK: expected some of ungm-float, .*, pipeline, got "ungm-flaot"\. Did you mean)"},
         BenchRefusal{"NoParticles", "doa -n 0", "--particles: expected integers from 1 to"},
         BenchRefusal{"NoRepeats", "doa --repeats 0", "--repeats: expected an integer from 1 to 10000, got 0"},
         BenchRefusal{"NoThreads", "threads --threads 0", "--threads: expected an integer from 1 to 1024, got 0"},
