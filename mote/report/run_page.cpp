@@ -108,7 +108,7 @@ Chart stage_chart(const StageRecord& record) {
   std::vector<std::string> steps;
   for (const Step t : record.timeline_steps) steps.push_back(std::to_string(t));
   Chart chart{.title = "Stages at work, t = " + fmt::format("{}", fmt::join(steps, ", ")),
-              .x_label = "ms since the step began"};
+              .x_label = fmt::format("ms since step {} began", record.timeline_steps.front())};
   std::vector<double> first_row;
   for (const StageUse& stage : record.stages) {
     first_row.push_back(static_cast<double>(chart.rows.size()));

@@ -60,8 +60,8 @@ INSTANTIATE_TEST_SUITE_P(
                       "-n 1000 --filter auxiliary --engine simd --chains 4",
                       "-n 300 --filter auxiliary --parent-weights lookahead",
                       "-n 300 --filter distributed --groups 4 --exchange swap --topology hypercube",
-                      "-n 300 --filter sqmc", "-n 300 --filter ekf", "-n 300 --filter ukf",
-                      "-n 300 --proposal guided --on-collapse reset"));
+                      "-n 300 --filter imh --chains 2 --engine pipeline --weighers 2", "-n 300 --filter sqmc",
+                      "-n 300 --filter ekf", "-n 300 --filter ukf", "-n 300 --proposal guided --on-collapse reset"));
 
 class Checkpoints : public Broken {};
 
@@ -79,6 +79,18 @@ TEST_F(Checkpoints, CtrlCLeavesOneAndSaysSo) {
   EXPECT_EQ(ended.code, 0);
   EXPECT_EQ(ended.err, "c: note: the run goes on from there.\n");
   EXPECT_NE(ended.out.find("400 steps estimated"), std::string::npos) << ended.out;
+  expect_whole();
+}
+
+TEST_F(Checkpoints, OfAPipelineFitAnyNumberOfWorkers) {
+  prepare("-n 20000 --filter imh --engine pipeline --proposers 2", 100);
+  Child child(scratch_, words_of(kept("1")));
+  await_checkpoint();
+  child.signal(SIGINT);
+  EXPECT_EQ(child.end().code, 130);
+  std::string resumed = in_shell("1000000");
+  resumed.replace(resumed.find("--proposers 2"), 13, "--proposers 1 --weighers 3 --threads 4");
+  EXPECT_EQ(scratch_.shell(resumed).err, "c: note: the run goes on from there.\n");
   expect_whole();
 }
 

@@ -63,11 +63,14 @@ class Check(unittest.TestCase):
         self.assertEqual(calls[0], "bootstrap all")
         self.assertEqual(
             calls[3:-1],
-            ["lint tidy", "cmake --preset asan", "cmake --build --preset asan", "ctest --preset asan", "fuzz 20"],
+            [
+                "lint tidy", "cmake --preset asan", "cmake --build --preset asan", "ctest --preset asan",
+                "cmake --preset tsan", "cmake --build --preset tsan --target software_tests", r"ctest --preset tsan -R ^software_tests\.", "fuzz 20",
+            ],
         )
         self.assertTrue(calls[-1].startswith("ctest --test-dir"), "all labels, nightly ones too")
         self.assertEqual(lines[-2], SUMMARY)
-        for broken, name in (("lint", "clang-tidy"), ("'cmake --build --preset asan'", "sanitizers"), ("fuzz", "fuzzing")):
+        for broken, name in (("lint", "clang-tidy"), ("'cmake --build --preset asan'", "sanitizers"), ("'ctest --preset tsan'", "thread sanitizer"), ("fuzz", "fuzzing")):
             code, lines, calls = self.run_check("--all", broken=broken)
             self.assertEqual(code, 1)
             self.assertIn(f": {name}. Look in", lines[-1])

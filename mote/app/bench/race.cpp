@@ -74,7 +74,7 @@ Lane warmed(const Entrant& entrant, Clock clock, std::size_t particles, std::vec
 
 void take_turn(Lane& lane, const Task& task, std::size_t particles, std::uint64_t round, std::vector<double>& answer) {
   const std::size_t work = particles * task.steps;
-  const std::size_t runs = task.waits ? 1 : (kLeastWork + work - 1) / work;
+  const std::size_t runs = task.most_particles > 0 ? 1 : (kLeastWork + work - 1) / work;
   double seconds = 0;
   for (std::size_t k = 0; k < runs; ++k) seconds += one_run(*lane.racer, task.clock, particles, round + 1, answer);
   lane.rounds.push_back(1e9 * seconds / static_cast<double>(runs * work));
@@ -117,6 +117,14 @@ void race_at(const Task& task, const std::vector<const Entrant*>& present, std::
     outcome.results.push_back(result_of(lane, particles, lanes.front(), limit == lanes.end() ? nullptr : &*limit));
 }
 
+/// The numbers of particles to race at, each once.
+std::vector<std::size_t> raced_at(const Task& task, std::vector<std::size_t> asked) {
+  if (task.most_particles == 0) return asked;
+  for (std::size_t& n : asked) n = std::min(n, task.most_particles);
+  asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
+  return asked;
+}
+
 }  // namespace
 
 Spread spread_of(std::vector<double> values) {
@@ -153,9 +161,10 @@ Outcome race(const Task& task, const Rules& rules) {
     outcome.checks.push_back({entrant.name, checked(task, entrant, rules)});
     present.push_back(&entrant);
   }
-  const std::size_t all = present.size() * rules.repeats * rules.particles.size();
+  const auto numbers = raced_at(task, rules.particles);
+  const std::size_t all = present.size() * rules.repeats * numbers.size();
   std::size_t done = 0;
-  for (const std::size_t particles : rules.particles)
+  for (const std::size_t particles : numbers)
     race_at(
         task, present, particles, rules, [&] { rules.progress(++done, all); }, outcome);
   return outcome;

@@ -61,7 +61,9 @@ struct Task {
   /// The first is whom the others are measured against; one called "limit" is what all are measured against, too.
   std::vector<Entrant> entrants;
   std::function<Verdict(const Entrant&)> judge;
-  bool waits = false;  ///< a run is as long for few particles: it is not repeated within a turn
+  /// Where a particle is given a cost by waiting: larger numbers of particles that are asked for are brought down to
+  /// this, and a run is not repeated within a turn. 0: no such task.
+  std::size_t most_particles = 0;
 };
 
 /// A task by its name and what it is about; made only when asked for, since making one may draw recordings.

@@ -12,5 +12,6 @@ Task doa_task(const TaskEntry& entry, std::size_t threads);
 Task resample_task(const TaskEntry& entry, std::size_t threads);
 Task threads_task(const TaskEntry& entry, std::size_t threads);
 Task pipeline_task(const TaskEntry& entry, std::size_t threads);
+Task computing_pipeline_task(const TaskEntry& entry, std::size_t threads);
 
 }  // namespace mote::bench

@@ -36,12 +36,28 @@ struct Block {
   Stretch stretch;
 };
 
+/// Sleeps until then, to the microsecond rather than to the 50 us that the system allows itself.
+void wait_until(Clock::time_point time) {
+  thread_local const bool punctual = prctl(PR_SET_TIMERSLACK, 1) == 0;
+  static_cast<void>(punctual);
+  std::this_thread::sleep_until(time);
+}
+
 /// What a worker of a stage has done; its seat's alone while it works.
 struct alignas(kApart) Account {
   Clock::duration busy{0};
+  Clock::duration overslept{0};
   std::uint64_t blocks = 0, queued = 0, most_queued = 0;
   std::vector<StageSpan> spans;
 };
+
+/// Waits until a worker that has begun then has taken so many seconds. What the system lets it sleep too long is taken
+/// off its next wait.
+void keep_pace(Account& account, Clock::time_point begin, double seconds_in_all) {
+  const auto due = begin + std::chrono::nanoseconds(std::llround(1e9 * seconds_in_all)) - account.overslept;
+  wait_until(due);
+  account.overslept = std::max(Clock::duration{0}, Clock::now() - due);
+}
 
 /// A stage: seats for its workers.
 struct Bench {
@@ -51,13 +67,6 @@ struct Bench {
 
   Bench(std::size_t workers, double seconds_a_particle) : seats(workers), accounts(workers), pace(seconds_a_particle) {}
 };
-
-/// Sleeps until then, to the microsecond rather than to the 50 us that the system allows itself.
-void wait_until(Clock::time_point time) {
-  thread_local const bool punctual = prctl(PR_SET_TIMERSLACK, 1) == 0;
-  static_cast<void>(punctual);
-  std::this_thread::sleep_until(time);
-}
 
 }  // namespace
 
@@ -76,6 +85,7 @@ class Pipeline::Floor {
       : size_(size),
         most_under_way_(4 * (size.proposers + size.weighers + size.chains)),
         awake_(size.threads <= cores()),
+        settled_(size.threads >= size.proposers + size.weighers + size.chains),
         benches_{Bench(size.proposers, size.pace.propose), Bench(size.weighers, size.pace.weigh),
                  Bench(size.chains, size.pace.chain)},
         proposed_(most_under_way_),
@@ -92,7 +102,7 @@ class Pipeline::Floor {
   Floor& operator=(const Floor&) = delete;
   ~Floor() {
     closed_.store(true, std::memory_order_release);
-    tell();
+    tell_all();
   }
 
   const PipelineSize& size() const { return size_; }
@@ -102,7 +112,7 @@ class Pipeline::Floor {
     lay_out(stages);
     const std::size_t all = blocks_.size();
     dealt_.store(++pass_ << kHalf | all, std::memory_order_release);
-    tell();
+    tell_all();
     work_while([&] { return retired_.load(std::memory_order_acquire) < all; });
     pass_end_ = now();
     in_stages_ += pass_end_ - pass_begin_;
@@ -204,8 +214,13 @@ class Pipeline::Floor {
 
   // ---- who does what next
 
-  /// Something has changed that somebody may wait for.
+  /// Something has changed that somebody may wait for. One is woken, because what has been done enables two works at
+  /// most, and who did it takes up one of them.
   void tell() {
+    news_.fetch_add(1);
+    news_.notify_one();
+  }
+  void tell_all() {
     news_.fetch_add(1);
     news_.notify_all();
   }
@@ -213,10 +228,11 @@ class Pipeline::Floor {
   template <class Condition>
   void work_while(const Condition& goes_on) {
     auto idle_since = Clock::now();
+    StageNumber last = kChain;
     for (;;) {
       const std::uint32_t seen = news_.load();
       if (!goes_on()) return;
-      if (take() || weigh() || propose()) {
+      if (take_up(last)) {
         idle_since = Clock::now();
       } else if (awake_ && Clock::now() - idle_since < kAwake) {
         for (int k = 0; k < 32 && news_.load(std::memory_order_relaxed) == seen; ++k) _mm_pause();
@@ -226,6 +242,19 @@ class Pipeline::Floor {
       }
     }
   }
+
+  /// Works on something, if there is something. Where every worker can have a thread, that keeps to its stage, so that
+  /// no stage waits for a thread to wake; else what is furthest down the line comes first.
+  bool take_up(StageNumber& last) {
+    if (settled_ && work_at(last)) return true;
+    for (const StageNumber stage : {kChain, kWeigh, kPropose})
+      if (work_at(stage)) {
+        last = stage;
+        return true;
+      }
+    return false;
+  }
+  bool work_at(StageNumber stage) { return stage == kChain ? take() : stage == kWeigh ? weigh() : propose(); }
 
   bool propose() {
     Bench& bench = benches_[kPropose];
@@ -298,9 +327,12 @@ class Pipeline::Floor {
   }
 
   void retire() {
+    const std::size_t all = blocks_.size();
     under_way_.fetch_sub(1, std::memory_order_release);
-    retired_.fetch_add(1, std::memory_order_release);
-    tell();
+    if (retired_.fetch_add(1, std::memory_order_acq_rel) + 1 == all)
+      tell_all();  // the caller among them
+    else
+      tell();
   }
 
   /// The next block to propose, if there is one and not too many are under way.
@@ -321,8 +353,8 @@ class Pipeline::Floor {
     Account& account = benches_[stage].accounts[seat];
     const auto begin = Clock::now();
     if (!failed_.load(std::memory_order_relaxed)) attempt(work);
-    if (const double pace = benches_[stage].pace; pace > 0)
-      wait_until(begin + std::chrono::nanoseconds(std::llround(1e9 * pace * static_cast<double>(block.stretch.size()))));
+    if (benches_[stage].pace > 0)
+      keep_pace(account, begin, benches_[stage].pace * static_cast<double>(block.stretch.size()));
     const auto end = Clock::now();
     account.busy += end - begin;
     ++account.blocks;
@@ -361,7 +393,8 @@ class Pipeline::Floor {
 
   PipelineSize size_;
   std::size_t most_under_way_;
-  bool awake_;  // whether who has nothing to do may keep a core for a while
+  bool awake_;    // whether who has nothing to do may keep a core for a while
+  bool settled_;  // whether threads keep to their stages
   std::array<Bench, kStages> benches_;
   Ring proposed_;
   std::vector<Queue> queues_;  // each of whoever sits in its line's seat

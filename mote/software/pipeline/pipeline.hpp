@@ -19,7 +19,8 @@ struct PipelineSize {
   std::size_t threads = 1;    ///< that do all of it, the caller's among them
   std::size_t block = 0;      ///< particles that pass together, a power of two up to 1024; 0 = chosen by their number
   /// Seconds that a stage takes for a particle at least: it waits when it has worked for less. For measuring the
-  /// pipeline itself by stages of known cost, which need no core.
+  /// pipeline itself by stages of known cost, which need no core. What a wait was too long is taken off the worker's
+  /// next.
   struct Pace {
     double propose = 0, weigh = 0, chain = 0;
   } pace = {};
@@ -30,8 +31,8 @@ struct PipelineSize {
 std::size_t block_for(std::size_t count, std::size_t workers);
 
 /// Runs the stages on threads of its own, which stay between steps. A thread takes up what is furthest down the line:
-/// chains before weights before proposals. At most 4 (Rp + Rw + P) blocks are under way at once, so that queues are
-/// bounded and what is weighed is still in the caches.
+/// chains before weights before proposals; where there is a thread for every worker, it keeps to its stage. At most 4
+/// (Rp + Rw + P) blocks are under way at once, so that queues are bounded and what is weighed is still in the caches.
 ///
 /// error   what a stage throws, after the rest has been passed over: of several one
 /// cost    some 0.5 us a block; a step that comes within 100 us finds the threads awake

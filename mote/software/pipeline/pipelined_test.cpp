@@ -8,7 +8,6 @@
 #include "mote/model/linear_gaussian.hpp"
 #include "mote/model/local_level.hpp"
 #include "mote/model/ungm.hpp"
-#include "mote/software/reference.hpp"
 
 namespace mote {
 namespace {
@@ -75,12 +74,21 @@ std::string difference(const Told& a, const Told& b) {
 const std::vector<PipelineSize> kSizes{
     {1, 1, 1, 1, 0, {}}, {2, 1, 1, 2, 16, {}}, {1, 3, 2, 3, 64, {}}, {3, 2, 4, 4, 256, {}}, {2, 2, 64, 2, 1024, {}}};
 
+/// The reference engine's filter, of those that the pipeline has: what make_reference_filter() makes of such a plan.
+template <class M>
+std::unique_ptr<Filter> reference_filter(const M& model, const Plan& plan) {
+  return with_proposal(model, plan, "test", [&]<class G>(std::type_identity<G>) {
+    return plan.precision == Precision::kFloat ? pipelined::make<float, G>(model, plan, stage_by_stage())
+                                               : pipelined::make<double, G>(model, plan, stage_by_stage());
+  });
+}
+
 template <class M>
 void expect_the_reference(const M& model, const Plan& plan, const std::string& what,
                           const std::vector<PipelineSize>& sizes = kSizes) {
   const Recording recording = drawn(model);
   const RunRequest request = request_for(model);
-  const auto reference = make_reference_filter(model, plan, "test");
+  const auto reference = reference_filter(model, plan);
   const Told expected = told(*reference, plan, recording, request);
   for (const PipelineSize& size : sizes) {
     const auto pipelined = make_pipeline_filter(model, plan, "test", size);
@@ -151,7 +159,7 @@ TEST(PipelinedFilter, IsTheReferenceOnLinearModels) {
 TEST(PipelinedFilter, TwinAnotherSeedIsCaught) {
   const Ungm<1> model;
   Plan plan = plan_of(FilterKind::kImh, 100);
-  const auto reference = make_reference_filter(model, plan, "test");
+  const auto reference = reference_filter(model, plan);
   plan.seed = 4;
   const auto pipelined = make_pipeline_filter(model, plan, "test");
   EXPECT_NE(difference(told(*pipelined, plan, drawn(model), request_for(model)),
@@ -216,7 +224,7 @@ TEST(PipelinedFilter, RecoversFromACollapseAsTheReferenceDoes) {
         plan.on_collapse = what;
         plan.chain.chains = 3;
         plan.chain.start = start;
-        const auto reference = make_reference_filter(model, plan, "test");
+        const auto reference = reference_filter(model, plan);
         const auto pipelined = make_pipeline_filter(model, plan, "test", kSizes[3]);
         const Told expected = told(*reference, plan, recording, request_for(model));
         EXPECT_TRUE(expected.record.rows[2].report.collapsed);
@@ -263,7 +271,7 @@ TEST(PipelinedFilter, LeavesTheRecordOfItsStages) {
   EXPECT_EQ(record.stages->stages[0].workers.size(), 2U);
   EXPECT_EQ(record.stages->stages[1].workers.size(), 3U);
   EXPECT_EQ(record.stages->stages[2].workers.size(), 4U);
-  const auto reference = make_reference_filter(model, plan, "test");
+  const auto reference = reference_filter(model, plan);
   EXPECT_FALSE(run(*reference, plan, drawn(model), request_for(model)).stages);
 }
 
