@@ -24,6 +24,23 @@ TEST_F(Mpi, GivesTheBytesOfOneProcess) {
   }
 }
 
+TEST_F(Mpi, SharesGroups) {
+  ASSERT_EQ(scratch_.shell("mote simulate bearings --seed 3 --steps 30 --out d.csv").code, 0);
+  for (const std::string options : {"--groups 9 --exchange append --exchange-count 2 --topology torus",
+                                    "--groups 16 --exchange swap --topology hypercube --ess-threshold 0.5",
+                                    "--groups 10 --group-resampling rna --resampler residual"}) {
+    const std::string run =
+        "run bearings --data d.csv --out e.csv --summary s.json -n 1003 --filter distributed " + options;
+    ASSERT_EQ(scratch_.shell("mote " + run).code, 0);
+    const std::string expected = scratch_.read("e.csv");
+    for (const int ranks : {1, 3, 8}) {
+      const Ended ended = on(ranks, run + " --engine mpi");
+      EXPECT_EQ(ended.code, 0) << ended.err;
+      EXPECT_EQ(scratch_.read("e.csv"), expected) << ranks << " ranks, " << options;
+    }
+  }
+}
+
 TEST_F(Mpi, BringsAllParticlesTogetherWhereTheyAreAskedFor) {
   ASSERT_EQ(scratch_.shell("mote simulate bearings --seed 3 --steps 5 --out d.csv").code, 0);
   scratch_.write("d.csv", scratch_.read("d.csv") + "9,\n10,0.7\n");  // steps without observation, too
@@ -66,6 +83,8 @@ TEST_F(Mpi, RefusesOnceForAllRanks) {
            {run + "-n 2048", 2, "at most 2 ranks for 2048 particles, a block of 1024 each, got 3 ranks. Start fewer"},
            {run + "--filter imh", 2,
             "--engine mpi: expected at most 1 rank for --chains 1: a chain stays on one, got 3"},
+           {run + "--filter distributed --groups 2", 2, "at most 2 ranks for --groups 2: a group stays on one, got 3"},
+           {run + "--filter distributed --groups 9 --group-resampling global", 2, "groups that resample by themselves"},
            {run + "--filter imh --chains 9 --burn-in auto", 2, "--engine mpi: expected --filter sisr with --resampler"},
            {run + "--resampler residual", 2,
             "--resampler residual --selection-exponent 1 --proposal prior. Pass --engine fastest"},
