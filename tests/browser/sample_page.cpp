@@ -105,6 +105,13 @@ Chart long_chart() {
                       table(n, [](int i) { return std::sin(i / 9e3) + 0.2 * noise(3 * i); })}}};
 }
 
+Chart bars_chart() {
+  return {.title = "Stages at work",
+          .x_label = "ms",
+          .bars = {{"propose", {0, 2, 4}, {2, 4, 6}, {0, 0, 0}}, {"weigh", {2, 5, 4}, {5, 9, 7}, {1, 1, 2}}},
+          .rows = {"propose 1", "weigh 1", "weigh 2"}};
+}
+
 Page sample() {
   return {
       .title = "Growth model, bootstrap filter",
@@ -127,6 +134,7 @@ Page sample() {
                  track_chart(),
                  error_chart(),
                  long_chart(),
+                 bars_chart(),
                  {.title = "Nothing </script><b>&\"' Ω",
                   .x_label = "t (step)",
                   .y_label = "<i>y</i>",

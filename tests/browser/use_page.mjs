@@ -67,6 +67,16 @@ const uses = {
       assert.equal(await zoomed(page, title), false);
     }
   },
+  "bars are told by their rows": async (page) => {
+    await page.mouse.move(...(await middle(page, "Stages at work"))); // about 4.5 ms
+    const text = await tip(page, "Stages at work");
+    for (const part of ["propose 1", "4 … 6", "weigh 1", "2 … 5", "weigh 2", "4 … 7"]) assert.ok(text.includes(part), text);
+    const entry = chart(page, "Stages at work").getByRole("button", { name: "weigh" });
+    assert.ok((await ink(page, "Stages at work")).weigh > 1000);
+    await entry.press("Enter");
+    assert.equal((await ink(page, "Stages at work")).weigh, 0);
+    await entry.press("Enter");
+  },
   "the tooltip tells the values, names as text": async (page) => {
     await page.mouse.move(...(await middle(page, "State x")));
     const text = await tip(page, "State x");
@@ -140,6 +150,6 @@ async function useAll(page) {
     }
   }
 }
-const { failures } = await withBrowser((browser) => inspect(browser, file, { expectCharts: 6, use: useAll }));
+const { failures } = await withBrowser((browser) => inspect(browser, file, { expectCharts: 7, use: useAll }));
 failures.forEach((failure) => console.log(`FAILED  ${failure}`));
 process.exit(failed.length + failures.length ? 1 : 0);

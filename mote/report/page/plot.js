@@ -211,6 +211,7 @@ export class Plot {
   toggle(item, shown) {
     if (shown) this.hiddenItems.delete(item);
     else this.hiddenItems.add(item);
+    this.canvas.dispatchAction({ type: "hideTip" }); // it may tell of what goes
     this.draw();
   }
 
