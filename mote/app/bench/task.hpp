@@ -61,8 +61,8 @@ struct Task {
   /// The first is whom the others are measured against; one called "limit" is what all are measured against, too.
   std::vector<Entrant> entrants;
   std::function<Verdict(const Entrant&)> judge;
-  /// Where a particle is given a cost by waiting: larger numbers of particles that are asked for are brought down to
-  /// this, and a run is not repeated within a turn. 0: no such task.
+  /// Where a particle costs much: larger numbers of particles that are asked for are brought down to this, and a run is
+  /// not repeated within a turn. 0: as many as are asked for.
   std::size_t most_particles = 0;
 };
 
