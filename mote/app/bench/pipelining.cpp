@@ -64,13 +64,13 @@ class PipelineRacer final : public Racer {
       filter_->select(t, report);
     }
   }
-  double outside_seconds() const override { return filter_ ? stages().seconds : kNaN; }
-  StageRecord stages() const { return dynamic_cast<const Staged&>(*filter_).stages(); }
+  double outside_seconds() const override { return filter_ ? filter_->stages().seconds : kNaN; }
+  std::optional<StageRecord> stages() const override { return filter_->stages(); }
 
  private:
   std::shared_ptr<const Course> course_;
   Setting setting_;
-  std::unique_ptr<Filter> filter_;
+  std::unique_ptr<PipelinedFilter> filter_;
 };
 
 /// What a particle takes in each stage where one thread computes them.
@@ -79,7 +79,7 @@ StageTimes computed(const std::shared_ptr<const Course>& course, std::size_t par
   std::vector<double> answer;
   racer.prepare(particles, 1);
   racer.run(answer);
-  const StageRecord record = racer.stages();
+  const StageRecord record = racer.stages().value();
   const auto busy = [&](std::size_t stage) {
     return record.stages[stage].workers[0].busy_seconds / (kComputedSteps * static_cast<double>(particles));
   };

@@ -3,11 +3,13 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "mote/base/numbers.hpp"
+#include "mote/engine/stage_record.hpp"
 
 namespace mote::bench {
 
@@ -23,6 +25,8 @@ class Racer {
   virtual double outside_seconds() const { return kNaN; }
   /// Bytes of memory that a program outside took for it; NaN: it ran in here.
   virtual double outside_bytes() const { return kNaN; }
+  /// What the stages of its last run did, if it ran by stages.
+  virtual std::optional<StageRecord> stages() const { return std::nullopt; }
 
  protected:
   Racer() = default;
