@@ -103,32 +103,6 @@ Chart over_time(const RunRecord& record, const std::string& title, const std::st
   return chart;
 }
 
-/// Who was at work when, in the steps that the record shows: a row a worker, one for what all stages wait for.
-Chart stage_chart(const StageRecord& record) {
-  std::vector<std::string> steps;
-  for (const Step t : record.timeline_steps) steps.push_back(std::to_string(t));
-  Chart chart{.title = "Stages at work, t = " + fmt::format("{}", fmt::join(steps, ", ")),
-              .x_label = fmt::format("ms since step {} began", record.timeline_steps.front())};
-  std::vector<double> first_row;
-  for (const StageUse& stage : record.stages) {
-    first_row.push_back(static_cast<double>(chart.rows.size()));
-    for (std::size_t k = 0; k < stage.workers.size(); ++k)
-      chart.rows.push_back(fmt::format("{} {}", stage.name, k + 1));
-    if (!stage.workers.empty()) chart.bars.push_back({stage.name});
-  }
-  first_row.push_back(static_cast<double>(chart.rows.size()));
-  chart.rows.emplace_back("barrier");
-  chart.bars.push_back({"barrier: sums, estimates, selection"});
-  for (const StageSpan& span : record.timeline) {
-    const bool barrier = span.stage >= record.stages.size();
-    Bars& bars = barrier ? chart.bars.back() : chart.bars[span.stage];
-    bars.begin.push_back(1e3 * span.begin);
-    bars.end.push_back(1e3 * span.end);
-    bars.row.push_back(first_row[span.stage] + static_cast<double>(span.worker));
-  }
-  return chart;
-}
-
 std::vector<Chart> charts_of(const RunRecord& record, const Summary& summary, const Recording& recording,
                              const Truth* truth) {
   std::vector<Chart> charts;
@@ -154,7 +128,9 @@ std::vector<Chart> charts_of(const RunRecord& record, const Summary& summary, co
                                [](const EstimateRow& row) { return row.report.acceptance; }));
   charts.push_back(over_time(record, "Log evidence of each step", "nat", Series::Mark::kPoints,
                              [](const EstimateRow& row) { return row.report.log_evidence; }));
-  if (record.stages && !record.stages->timeline.empty()) charts.push_back(stage_chart(*record.stages));
+  if (record.stages && !record.stages->timeline.empty())
+    charts.push_back(stage_chart(
+        *record.stages, fmt::format("Stages at work, t = {}", fmt::join(record.stages->timeline_steps, ", "))));
   return charts;
 }
 
@@ -214,6 +190,28 @@ std::vector<Table> tables_of(const RunRecord& record, const Summary& summary) {
 }
 
 }  // namespace
+
+Chart stage_chart(const StageRecord& record, const std::string& title) {
+  Chart chart{.title = title, .x_label = fmt::format("ms since step {} began", record.timeline_steps.front())};
+  std::vector<double> first_row;
+  for (const StageUse& stage : record.stages) {
+    first_row.push_back(static_cast<double>(chart.rows.size()));
+    for (std::size_t k = 0; k < stage.workers.size(); ++k)
+      chart.rows.push_back(fmt::format("{} {}", stage.name, k + 1));
+    if (!stage.workers.empty()) chart.bars.push_back({stage.name});
+  }
+  first_row.push_back(static_cast<double>(chart.rows.size()));
+  chart.rows.emplace_back("barrier");
+  chart.bars.push_back({"barrier: sums, estimates, selection"});
+  for (const StageSpan& span : record.timeline) {
+    const bool barrier = span.stage >= record.stages.size();
+    Bars& bars = barrier ? chart.bars.back() : chart.bars[span.stage];
+    bars.begin.push_back(1e3 * span.begin);
+    bars.end.push_back(1e3 * span.end);
+    bars.row.push_back(first_row[span.stage] + static_cast<double>(span.worker));
+  }
+  return chart;
+}
 
 Page run_page(const RunRecord& record, const Summary& summary, const Recording& recording, const Truth* truth,
               const std::string& source, const std::string& command) {

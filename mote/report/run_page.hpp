@@ -16,4 +16,9 @@ namespace mote::report {
 Page run_page(const RunRecord& record, const Summary& summary, const Recording& recording, const Truth* truth,
               const std::string& source, const std::string& command);
 
+/// The stages at work in the steps that a record shows: a row a worker, one for what all stages wait for.
+///
+/// shape   the record has a timeline
+Chart stage_chart(const StageRecord& record, const std::string& title);
+
 }  // namespace mote::report

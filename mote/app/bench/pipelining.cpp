@@ -7,15 +7,19 @@
 #include "mote/app/bench/racers.hpp"
 #include "mote/app/bench/task_list.hpp"
 #include "mote/engine/latency.hpp"
+#include "mote/model/bearings.hpp"
 #include "mote/model/ungm.hpp"
 #include "mote/software/pipeline/pipelined.hpp"
 
 namespace mote::bench {
 namespace {
 
-constexpr Step kSteps = 1;
+constexpr Step kStatedSteps = 1;
+constexpr Step kComputedSteps = 20;   // the first finds sleeping threads and cold memory
 constexpr std::size_t kJudged = 100;  // particles of a judged run
 constexpr std::size_t kMost = 2000;   // particles whose cost is stated: a second or so a run
+
+constexpr std::size_t kMostComputed = 20'000;  // at some 10 us each
 
 /// What a particle takes in each stage where that is stated, s: a slow likelihood, half of IMH-OPT's 1.1 ms.
 constexpr StageTimes kStated{0.000150, 0.000600, 0.000040};
@@ -26,44 +30,47 @@ struct Setting {
   bool computes = false;
   std::size_t threads = proposers + weighers + (computes ? 0 : 1);
 
+  Step steps() const { return computes ? kComputedSteps : kStatedSteps; }
   std::string name() const {
     return fmt::format("{} x {}{}", proposers, weighers,
                        computes ? fmt::format(", {} thread{}", threads, threads == 1 ? "" : "s") : "");
   }
 };
 
-/// IMH on the growth model by one chain; times its stages itself.
+/// One chain, by a pipeline that times its stages itself: IMH on the growth model where costs are stated, else what
+/// proposes and weighs at about the same length, the auxiliary filter on bearings by guided proposals.
 class PipelineRacer final : public Racer {
  public:
   PipelineRacer(std::shared_ptr<const Course> course, const Setting& setting)
       : course_(std::move(course)), setting_(setting) {}
 
   void prepare(std::size_t particles, std::uint64_t seed) override {
-    Plan plan = plan_of(Engine::kPipeline, Precision::kDouble);
-    plan.filter = FilterKind::kImh;
-    plan.particles = particles;
-    plan.seed = seed;
     PipelineSize size{setting_.proposers, setting_.weighers, 1, setting_.threads, 0, {}};
     if (!setting_.computes) size.pace = {kStated.propose, kStated.weigh, kStated.chain};
     filter_.reset();
-    filter_ = make_pipeline_filter(Ungm<1>{}, plan, "mote bench", size);
+    filter_ = std::make_unique<PipelinedFilter>(size, [&](StageRunner& runner) -> std::unique_ptr<Filter> {
+      if (setting_.computes)
+        return make_auxiliary<double, Guided>(Bearings{}, particles, seed, {}, OnCollapse::kStop, runner);
+      return make_imh(Ungm<1>{}, particles, seed, {}, OnCollapse::kStop, runner);
+    });
   }
   void run(std::vector<double>& answer) override {
     answer.clear();
     Step t = 0;
     for (const ObservedStep& step : course_->scene.recording.steps) {
       StepReport report = filter_->update(++t, step.rows);
-      answer.push_back(filter_->moments(0, false).mean);
+      for (std::size_t d = 0; d < course_->model->states().size(); ++d)
+        answer.push_back(filter_->moments(d, false).mean);
       filter_->select(t, report);
     }
   }
-  double outside_seconds() const override { return filter_ ? stages().seconds : kNaN; }
-  StageRecord stages() const { return dynamic_cast<const Staged&>(*filter_).stages(); }
+  double outside_seconds() const override { return filter_ ? filter_->stages().seconds : kNaN; }
+  std::optional<StageRecord> stages() const override { return filter_->stages(); }
 
  private:
   std::shared_ptr<const Course> course_;
   Setting setting_;
-  std::unique_ptr<Filter> filter_;
+  std::unique_ptr<PipelinedFilter> filter_;
 };
 
 /// What a particle takes in each stage where one thread computes them.
@@ -72,9 +79,9 @@ StageTimes computed(const std::shared_ptr<const Course>& course, std::size_t par
   std::vector<double> answer;
   racer.prepare(particles, 1);
   racer.run(answer);
-  const StageRecord record = racer.stages();
+  const StageRecord record = racer.stages().value();
   const auto busy = [&](std::size_t stage) {
-    return record.stages[stage].workers[0].busy_seconds / static_cast<double>(kSteps * particles);
+    return record.stages[stage].workers[0].busy_seconds / (kComputedSteps * static_cast<double>(particles));
   };
   return {busy(0), busy(1), busy(2)};
 }
@@ -85,8 +92,8 @@ double predicted(const Setting& setting, const StageTimes& particle, std::size_t
   const auto length = static_cast<double>(block_for(particles, std::max(setting.proposers, setting.weighers)));
   const double block = std::min(n, length);
   const StageTimes times{particle.propose * block, particle.weigh * block, particle.chain * block};
-  return kSteps * single_chain_time(n / block, times, static_cast<double>(setting.proposers),
-                                    static_cast<double>(setting.weighers));
+  return setting.steps() * single_chain_time(n / block, times, static_cast<double>(setting.proposers),
+                                             static_cast<double>(setting.weighers));
 }
 
 Entrant setting_entrant(const std::shared_ptr<const Course>& course, const Setting& setting) {
@@ -103,11 +110,13 @@ Entrant setting_entrant(const std::shared_ptr<const Course>& course, const Setti
 
 /// A task of settings, each judged by the reference engine.
 Task settings_task(const TaskEntry& entry, const std::vector<Setting>& settings) {
-  const auto course = simulated_course("ungm", kSteps, 1);
+  const bool computes = settings.front().computes;
+  const auto course = simulated_course(computes ? "bearings" : "ungm", settings.front().steps(), 1);
   Task task{entry.name, entry.meaning, Clock::kWall, course->steps(), {}, {}};
   for (const Setting& setting : settings) task.entrants.push_back(setting_entrant(course, setting));
   Plan plan = plan_of(Engine::kReference, Precision::kDouble);
-  plan.filter = FilterKind::kImh;
+  plan.filter = computes ? FilterKind::kAuxiliary : FilterKind::kImh;
+  if (computes) plan.proposal = Guided::kName;
   task.judge = [reference = filter_entrant("reference", course, plan)](const Entrant& entrant) {
     return Verdict{fmt::format("greatest difference of a mean to the reference engine's, {} particles", kJudged),
                    greatest_between(answer_of(entrant, kJudged, 1), answer_of(reference, kJudged, 1)), 0, 0};
@@ -126,7 +135,9 @@ Task pipeline_task(const TaskEntry& entry, std::size_t) {
   return task;
 }
 Task computing_pipeline_task(const TaskEntry& entry, std::size_t) {
-  return settings_task(entry, {{1, 1, true}, {1, 1, true, 1}});
+  Task task = settings_task(entry, {{1, 1, true}, {1, 1, true, 1}});
+  task.most_particles = kMostComputed;
+  return task;
 }
 
 }  // namespace mote::bench

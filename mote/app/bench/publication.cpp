@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "mote/report/run_page.hpp"
+
 namespace mote::bench {
 namespace {
 
@@ -202,6 +204,8 @@ report::Page bench_page(const Report& report) {
   page.command = report.command;
   for (const Outcome& outcome : report.outcomes) {
     page.charts.push_back(chart_of(outcome));
+    for (const auto& [name, stages] : outcome.stages)
+      page.charts.push_back(report::stage_chart(stages, fmt::format("{}: stages of {}", outcome.task, name)));
     auto cells = cells_of(outcome);
     page.tables.push_back({.title = outcome.task + ": " + outcome.meaning, .columns = cells.front()});
     page.tables.back().rows.assign(cells.begin() + 1, cells.end());

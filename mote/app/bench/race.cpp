@@ -114,6 +114,9 @@ void race_at(const Task& task, const std::vector<const Entrant*>& present, std::
   const auto limit =
       std::find_if(lanes.begin(), lanes.end(), [](const Lane& lane) { return lane.entrant->name == "limit"; });
   for (const Lane& lane : lanes)
+    if (const auto stages = lane.racer->stages(); stages && outcome.results.empty())
+      outcome.stages.emplace_back(lane.entrant->name, *stages);
+  for (const Lane& lane : lanes)
     outcome.results.push_back(result_of(lane, particles, lanes.front(), limit == lanes.end() ? nullptr : &*limit));
 }
 
@@ -150,7 +153,7 @@ Ratio paired_ratio(std::span<const double> above, std::span<const double> below)
 }
 
 Outcome race(const Task& task, const Rules& rules) {
-  Outcome outcome{task.name, task.meaning, task.clock, task.steps, {}, {}, {}};
+  Outcome outcome{task.name, task.meaning, task.clock, task.steps, {}, {}, {}, {}};
   std::vector<const Entrant*> present;
   for (const Entrant& entrant : task.entrants) {
     refuse_if(rules.stop, rules, task);

@@ -51,7 +51,8 @@ struct Outcome {
   std::size_t steps;
   std::vector<Checked> checks;
   std::vector<Absent> absent;
-  std::vector<Result> results;  ///< by particles, then by entrant
+  std::vector<Result> results;                              ///< by particles, then by entrant
+  std::vector<std::pair<std::string, StageRecord>> stages;  ///< of those who run by stages, at the first number
 };
 
 /// How to race.

@@ -3,11 +3,13 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "mote/base/numbers.hpp"
+#include "mote/engine/stage_record.hpp"
 
 namespace mote::bench {
 
@@ -23,6 +25,8 @@ class Racer {
   virtual double outside_seconds() const { return kNaN; }
   /// Bytes of memory that a program outside took for it; NaN: it ran in here.
   virtual double outside_bytes() const { return kNaN; }
+  /// What the stages of its last run did, if it ran by stages.
+  virtual std::optional<StageRecord> stages() const { return std::nullopt; }
 
  protected:
   Racer() = default;
@@ -61,8 +65,8 @@ struct Task {
   /// The first is whom the others are measured against; one called "limit" is what all are measured against, too.
   std::vector<Entrant> entrants;
   std::function<Verdict(const Entrant&)> judge;
-  /// Where a particle is given a cost by waiting: larger numbers of particles that are asked for are brought down to
-  /// this, and a run is not repeated within a turn. 0: no such task.
+  /// Where a particle costs much: larger numbers of particles that are asked for are brought down to this, and a run is
+  /// not repeated within a turn. 0: as many as are asked for.
   std::size_t most_particles = 0;
 };
 

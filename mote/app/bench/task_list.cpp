@@ -11,7 +11,7 @@ const std::vector<TaskEntry>& tasks() {
       {"resample", "ancestors from weights, and their states copied; one thread", resample_task},
       {"threads", "growth model in float on several threads, 100 steps; wall-clock", threads_task},
       {"pipeline", "settings of the pipeline, stages of a stated cost; in the stages, wall-clock", pipeline_task},
-      {"pipeline-2", "the pipeline, stages that compute, two threads; in the stages, wall-clock",
+      {"pipeline-2", "bearings, guided proposals: stages that compute, two threads; in the stages, wall-clock",
        computing_pipeline_task}};
   return all;
 }

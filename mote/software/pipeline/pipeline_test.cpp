@@ -202,12 +202,16 @@ TEST(Pipeline, ChainsTakeWhileLaterBlocksAreStillToBeProposed) {
 
 // claim    so many steps come one after the other without losing a wake-up or a block of another step
 TEST(Pipeline, RunsManySmallSteps) {
-  Pipeline pipeline({2, 2, 3, 4, 16, {}});
-  for (std::size_t step = 0; step < 3000; ++step) {
-    Trial trial(1 + step % 200, std::min<std::size_t>(3, 1 + step % 200));
-    pipeline.run(trial.stages());
-    ASSERT_EQ(std::count(trial.taken.begin(), trial.taken.end(), 1), static_cast<long>(1 + step % 200)) << step;
-    if (step % 1000 == 999) std::this_thread::sleep_for(std::chrono::milliseconds(2));  // the threads fall asleep
+  // fewer threads than workers, as many, and more
+  for (const PipelineSize& size : {PipelineSize{2, 2, 3, 4, 16, {}}, {1, 1, 1, 3, 16, {}}, {3, 4, 2, 12, 16, {}}}) {
+    Pipeline pipeline(size);
+    for (std::size_t step = 0; step < 1000; ++step) {
+      const std::size_t n = 1 + step % 200;
+      Trial trial(n, std::min(size.chains, n));
+      pipeline.run(trial.stages());
+      ASSERT_EQ(std::count(trial.taken.begin(), trial.taken.end(), 1), static_cast<long>(n)) << step;
+      if (step % 300 == 299) std::this_thread::sleep_for(std::chrono::milliseconds(2));  // the threads fall asleep
+    }
   }
 }
 
