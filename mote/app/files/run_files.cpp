@@ -58,7 +58,7 @@ nlohmann::json summary_json(const RunRecord& record, const Summary& summary) {
     json["acceptance"] = number(summary.acceptance);
     json["mean_burn_in"] = number(summary.mean_burn_in);
   }
-  if (record.plan.filter == FilterKind::kDistributed) {
+  if (has_chain(record) || record.plan.filter == FilterKind::kDistributed) {
     json["messages_per_step"] = summary.traffic_per_step.messages;
     json["bytes_per_step"] = summary.traffic_per_step.bytes;
   }
