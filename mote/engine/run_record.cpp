@@ -48,6 +48,14 @@ double median(std::vector<double> values) {
   return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
+/// What it takes that each of P chains, taken for a processor, has all N parents.
+Traffic shared_parents(const RunRecord& record) {
+  const Plan& plan = record.plan;
+  const std::size_t number = plan.precision == Precision::kFloat ? sizeof(float) : sizeof(double);
+  const auto share = static_cast<double>(plan.particles) / static_cast<double>(plan.chain.chains);
+  return all_gathered(plan.chain.chains, share * static_cast<double>(record.states.size() * number));
+}
+
 std::optional<PositionError> position_error(const RunRecord& record, const Truth& truth) {
   const auto ix = find_state(record, "x");
   const auto iy = find_state(record, "y");
@@ -83,6 +91,8 @@ Summary summarise(const RunRecord& record, const Truth* truth) {
   summary.mean_ess = mean_of(ess);
   const auto steps = static_cast<double>(record.rows.size());
   if (steps > 0) summary.traffic_per_step = {traffic.messages / steps, traffic.bytes / steps};
+  const FilterKind filter = record.plan.filter;
+  if (filter == FilterKind::kImh || filter == FilterKind::kAuxiliary) summary.traffic_per_step = shared_parents(record);
   summary.acceptance = mean_of(acceptance);
   summary.mean_burn_in = mean_of(burn_in);
   const double particle_steps =

@@ -46,7 +46,7 @@ struct Summary {
   double mean_ess;
   double acceptance;         ///< mean over steps with a chain; NaN without
   double mean_burn_in;       ///< mean N_b over steps with a chain; NaN without
-  Traffic traffic_per_step;  ///< mean over the estimated steps
+  Traffic traffic_per_step;  ///< mean over the estimated steps; of chains, what sharing their parents takes
   std::size_t collapses;
   double ns_per_particle_step;
   std::vector<double> rmse;                     ///< by state, NaN where the truth does not say; empty without truth

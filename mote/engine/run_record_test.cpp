@@ -57,6 +57,24 @@ TEST(Summary, UnknownTruthDoesNotScore) {
   EXPECT_FALSE(summarise(record, &truth).position_error);
 }
 
+TEST(Summary, TrafficIsAMeanOverTheSteps) {
+  auto record = record_of({{1, 1, 0}, {2, 2, 0}});
+  record.plan.filter = FilterKind::kDistributed;
+  record.rows[1].report.traffic = {3, 50};
+  EXPECT_EQ(summarise(record, nullptr).traffic_per_step.messages, 1.5);
+  EXPECT_EQ(summarise(record, nullptr).traffic_per_step.bytes, 25);
+}
+
+TEST(Summary, ChainsShareTheirParents) {
+  auto record = record_of({{1, 1, 0}});
+  record.plan.filter = FilterKind::kImh;
+  record.plan.particles = 1024;
+  EXPECT_EQ(summarise(record, nullptr).traffic_per_step.bytes, 0) << "one chain";
+  record.plan.chain.chains = 16;
+  EXPECT_EQ(summarise(record, nullptr).traffic_per_step.messages, 64);
+  EXPECT_EQ(summarise(record, nullptr).traffic_per_step.bytes, 15 * 1024 * 3 * 8);
+}
+
 TEST(Summary, WithoutTruthThereIsNoScore) {
   const auto record = record_of({{1, 1, 0}});
   EXPECT_TRUE(summarise(record, nullptr).rmse.empty());

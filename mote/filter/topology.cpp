@@ -27,7 +27,7 @@ std::vector<std::size_t> named(Topology topology, std::size_t groups, std::size_
       return {along(0, 1, groups, k, true), along(0, 1, groups, k, false)};
     case Topology::kTorus: {
       const std::size_t rows = rows_of(groups);
-      const std::size_t columns = groups / rows;
+      const std::size_t columns = std::max<std::size_t>(1, groups / rows);
       const std::size_t row = k - k % columns;
       const std::size_t column = k % columns;
       return {along(row, 1, columns, k, true), along(row, 1, columns, k, false), along(column, columns, rows, k, true),

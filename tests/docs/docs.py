@@ -16,7 +16,7 @@ Conventions of the documents:
                 (elsewhere it is refused: nothing would check it)
     <!-- file: PATH -->     before a block: the block stands in that file, word for word
     <!-- parameters: NAME --> ... <!-- end -->    holds the generated table of a model
-    (F7)        at the beginning of a line of a plain block in docs/filters.md is an equation; code cites "docs/filters.md (F7)"
+    (F7)        at the beginning of a line of a plain block in docs/filters.md is an equation (and (F7a) one that follows it); code cites "docs/filters.md (F7)"
 
 Exit code 0: all holds; 1: a sentence for each thing that does not; 2: wrong use.
 """
@@ -33,8 +33,8 @@ LISTED = re.compile(r"<!-- file: (\S+) -->")
 TABLE = re.compile(r"(<!-- parameters: (\S+) -->\n).*?(<!-- end -->)", re.S)
 LINK = re.compile(r"(?<!`)!?\[[^\]]*\]\(([^)\s]+)\)")
 CODE = (".cpp", ".hpp", ".py", ".js", ".mjs", ".cmake", ".txt", ".md", ".toml", "")
-EQUATION = re.compile(r"\(F(\d+)\)")
-CITED = re.compile(r"docs/filters\.md((?:,?\s*\(F\d+\)(?:\s*(?:-|–|to|and)\s*\(F\d+\))*)+)")
+EQUATION = re.compile(r"\(F(\d+)([a-z]?)\)")
+CITED = re.compile(r"docs/filters\.md((?:,?\s*\(F\d+[a-z]?\)(?:\s*(?:-|–|to|and)\s*\(F\d+[a-z]?\))*)+)")
 
 
 @dataclass
@@ -220,7 +220,9 @@ def broken_links(root, path):
 def references(root):
     root = pathlib.Path(root).resolve()
     plain = [b for b in blocks_of(root / "docs/filters.md") if not b.language]
-    numbers = [int(m[1]) for b in plain for line in b.lines if (m := EQUATION.match(line))]
+    equations = [m for b in plain for line in b.lines if (m := EQUATION.match(line))]
+    numbers = [int(m[1]) for m in equations if not m[2]]
+    known = {m[1] + m[2] for m in equations}
     faults = []
     if numbers != list(range(1, len(numbers) + 1)):
         faults.append(f"docs/filters.md: expected the equations (F1), (F2), ... in order, got {numbers}.")
@@ -232,10 +234,10 @@ def references(root):
         if path.suffix == ".md":
             faults += broken_links(root, path)
         joined = re.sub(r"\n\s*(?:///|//|#|\*)? ?", " ", text)
-        cited = [n for group in CITED.findall(joined) for n in re.findall(r"F(\d+)", group)]
+        cited = [n for group in CITED.findall(joined) for n in re.findall(r"F(\d+[a-z]?)", group)]
         if path.is_relative_to(root / "docs"):
-            cited += re.findall(r"\(F(\d+)\)", text)
-        faults += [f"{name}: cites (F{n}), which docs/filters.md does not have." for n in sorted(set(cited)) if int(n) not in numbers]
+            cited += re.findall(r"\(F(\d+[a-z]?)\)", text)
+        faults += [f"{name}: cites (F{n}), which docs/filters.md does not have." for n in sorted(set(cited) - known)]
         for document in sorted(set(re.findall(r"(?<![\w/.])docs/[\w./-]+\.md", text))):
             if not (root / document).is_file():
                 faults.append(f"{name}: names {document}, which is not there.")

@@ -113,6 +113,7 @@ class Docs(unittest.TestCase):
     def test_unknown_equations_are_caught(self):
         self.expect(self.references(a_DOT_hpp="/// source  docs/filters.md (F1),\n///         (F9)\n"), 1, "a.hpp: cites (F9)")
         self.expect(self.references(docs__other_DOT_md="by (F7)\n"), 1, "docs/other.md: cites (F7)")
+        self.expect(self.references(a_DOT_hpp="/// source  docs/filters.md (F1) to (F2a)\n"), 1, "a.hpp: cites (F2a)")
 
     def test_a_document_that_is_not_there_is_caught(self):
         self.expect(self.references(a_DOT_hpp="// see docs/gone.md\n"), 1, "a.hpp: names docs/gone.md, which is not there")

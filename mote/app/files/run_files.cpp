@@ -80,7 +80,7 @@ nlohmann::json summary_json(const RunRecord& record, const Summary& summary) {
     json["barrier_seconds"] = record.stages->barrier_seconds;
     json["stages"] = stages_json(*record.stages);
   }
-  if (record.plan.filter == FilterKind::kDistributed) {
+  if (has_chain(record) || record.plan.filter == FilterKind::kDistributed) {
     json["messages_per_step"] = summary.traffic_per_step.messages;
     json["bytes_per_step"] = summary.traffic_per_step.bytes;
   }
