@@ -3,7 +3,7 @@
 
 #include "mote/app/catalogue/catalogue.hpp"
 #include "mote/app/catalogue/simd.hpp"
-#include "mote/software/pipeline/pipelined.hpp"
+#include "mote/software/pipeline/ranked.hpp"
 #include "mote/software/reference.hpp"
 
 namespace mote {
@@ -20,6 +20,7 @@ class CatalogueModelOf final : public CatalogueModel {
     switch (engine_of(plan)) {
       case Engine::kMpi:
         if (plan.team == nullptr) refuse_without_team(where);
+        if (has_cast(plan)) return make_ranked_filter(model_, plan, where);
         [[fallthrough]];
       case Engine::kSimd:
         return simd_filter(model_, plan, where);

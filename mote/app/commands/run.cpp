@@ -20,6 +20,7 @@
 #include "mote/app/files/text.hpp"
 #include "mote/app/terminal/progress.hpp"
 #include "mote/app/terminal/signals.hpp"
+#include "mote/engine/messages.hpp"
 
 namespace mote {
 namespace {
@@ -62,8 +63,8 @@ struct Prepared {
   std::optional<CheckpointFile> checkpoint;
 };
 
-/// Refuses what a team cannot do: whatever needs all particles in one place.
-void check_for_team(const Arguments& arguments) {
+/// Refuses what a team that shares the particles cannot do: whatever needs them all in one place.
+void check_for_shares(const Arguments& arguments) {
   for (const std::string option : {"--estimate", "--dump-particles"})
     if (arguments.given(option))
       throw Refusal(ExitCode::kWrongUse, {arguments.where(), "--engine mpi", "no " + option + " beside it", option,
@@ -85,7 +86,7 @@ void prepare(Prepared& run, const Arguments& arguments, Team* team, bool writes)
   run.plan = plan_from(arguments);
   run.plan.team = team;
   if (team != nullptr) {
-    check_for_team(arguments);
+    if (!has_cast(run.plan)) check_for_shares(arguments);
     check(run.plan, arguments.where());
   }
   run.job = load_job(arguments.text("MODEL"),
@@ -94,8 +95,15 @@ void prepare(Prepared& run, const Arguments& arguments, Team* team, bool writes)
   run.job.command = arguments.command_line();
   run.request = request_for(run.job, arguments.list("--estimate"), arguments.where());
   check_memory(run.plan, run.job, arguments.where());
-  if (!writes) return;
+  if (!writes) {
+    run.request.estimands.clear();
+    return;
+  }
   open_outputs(run, arguments);
+  if (run.dump != nullptr) {
+    run.dump->write(particles_header(run.request.states));
+    run.request.dump = [&run](Step t, const WeightedSet& set) { write_particles(*run.dump, t, set); };
+  }
   run.checkpoint = checkpoint_from(arguments, run.plan, run.job);
   if (run.checkpoint && run.checkpoint->found())
     run.job.notes.push_back(arguments.text("--checkpoint") + ": note: the run goes on from there.");
@@ -138,10 +146,6 @@ ExitCode run_alone(const Arguments& arguments) {
   prepare(run, arguments, nullptr, true);
   run.request.stop = &stop;
   if (run.checkpoint) run.request.checkpoint = &*run.checkpoint;
-  if (run.dump != nullptr) {
-    run.dump->write(particles_header(run.request.states));
-    run.request.dump = [&run](Step t, const WeightedSet& set) { write_particles(*run.dump, t, set); };
-  }
   RunRecord record;
   {
     Progress progress("steps");
