@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "mote/engine/team.hpp"
+#include "mote/engine/messages.hpp"
 
 namespace mote {
 
@@ -24,8 +24,9 @@ class MpiSession {
 
 /// All processes of the job as a team.
 ///
-/// cost    largest, add, before, gather: O(log R) messages of a few bytes; exchange: a message for each parcel, or
-///         gigabyte of one; complete: as MPI_Allgatherv
-std::unique_ptr<Team> make_mpi_team();
+/// cost    largest, add, before, gather, share: O(log R) messages one after the other; exchange: a message for each
+///         parcel, or gigabyte of one; complete: as MPI_Allgatherv; send: a copy, and a wait where 64 messages have not
+///         arrived yet
+std::unique_ptr<MessagingTeam> make_mpi_team();
 
 }  // namespace mote

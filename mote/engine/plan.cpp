@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "mote/base/refusal.hpp"
-#include "mote/engine/team.hpp"
+#include "mote/engine/messages.hpp"
 #include "mote/filter/particles.hpp"
 #include "mote/filter/topology.hpp"
 
@@ -61,12 +61,28 @@ void check_stages(const Plan& plan, const std::string& where) {
           "--filter sisr, imh or auxiliary", fmt::format("--filter {}", name_of(plan.filter)),
           "Pass --engine reference, or leave it out.");
   for (const auto& [option, workers] : {std::pair{"--proposers", plan.proposers}, {"--weighers", plan.weighers}}) {
-    require(plan.engine == Engine::kPipeline || workers == 0, where, option, "--engine pipeline, whose stages it mans",
-            fmt::format("--engine {}", name_of(engine_of(plan))),
+    require(plan.engine == Engine::kPipeline || plan.engine == Engine::kMpi || workers == 0, where, option,
+            "--engine pipeline or mpi, whose stages it mans", fmt::format("--engine {}", name_of(engine_of(plan))),
             fmt::format("Pass --engine pipeline {} {}.", option, workers));
     require(workers <= kMostStageWorkers, where, option, fmt::format("an integer from 1 to {}", kMostStageWorkers),
             std::to_string(workers), fmt::format("Pass {} 1.", option));
   }
+}
+
+/// A rank has one part: there are as many as parts.
+void check_cast(const Plan& plan, const std::string& where) {
+  require(pipeline_has(plan), where, "--engine mpi --proposers --weighers", "--filter sisr, imh or auxiliary",
+          fmt::format("--filter {}", name_of(plan.filter)), "Pass --engine reference, or leave it out.");
+  require(plan.chain.burn_in.has_value() || plan.filter == FilterKind::kSisr, where,
+          "--engine mpi --proposers --weighers", "--burn-in with a number",
+          "--burn-in auto, which waits for all weights", "Pass --burn-in 0.");
+  if (plan.team == nullptr) return;
+  const Cast cast = cast_of(plan);
+  require(
+      plan.team->ranks() == cast.ranks(), where, "--engine mpi --proposers --weighers",
+      fmt::format("{} ranks: {} that propose, {} that weigh, {}", cast.ranks(), cast.proposers, cast.weighers,
+                  plan.filter == FilterKind::kSisr ? "1 that resamples" : fmt::format("{} with a chain", cast.chains)),
+      std::to_string(plan.team->ranks()), fmt::format("Start mpirun -n {}.", cast.ranks()));
 }
 
 void check_ranks(const Plan& plan, const std::string& where) {
@@ -129,7 +145,7 @@ double bytes_needed(const Plan& plan, std::size_t dimensions) {
     return static_cast<double>(plan.particles + 2 * dimensions) * (static_cast<double>(dimensions) * 32 + 16);
   const double state = static_cast<double>(dimensions) * (plan.precision == Precision::kFloat ? 4 : 8);
   const auto n = static_cast<double>(plan.particles);
-  if (engine_of(plan) == Engine::kMpi && plan.filter == FilterKind::kSisr) {
+  if (engine_of(plan) == Engine::kMpi && plan.filter == FilterKind::kSisr && !has_cast(plan)) {
     const double number = plan.precision == Precision::kFloat ? 4 : 8;
     // those that arrive and those that leave, besides
     return n / static_cast<double>(plan.team == nullptr ? 1 : plan.team->ranks()) * (4 * state + 3 * number) + 1e6;
@@ -157,12 +173,12 @@ void check(const Plan& plan, const std::string& where) {
           fmt::format("--filter {} --proposal {}", name_of(plan.filter), plan.proposal),
           "Pass --engine reference, or leave it out.");
   require(
-      plan.engine != Engine::kMpi || team_has(plan), where, "--engine mpi",
+      plan.engine != Engine::kMpi || has_cast(plan) || team_has(plan), where, "--engine mpi",
       "--filter sisr with --resampler systematic and --selection-exponent 1, imh or auxiliary with --proposal prior, "
       "without --burn-in auto and lookahead, or distributed with groups that resample by themselves",
       fmt::format("--filter {} --resampler {} --selection-exponent {} --proposal {}", name_of(plan.filter),
                   plan.selection.scheme->name, plan.selection.exponent, plan.proposal),
-      "Pass --engine fastest, or leave it out.");
+      "Pass --engine fastest, or --proposers and --weighers for a rank for each stage.");
   check_stages(plan, where);
   require(plan.particles >= 1 && plan.particles <= kMostParticles, where, "--particles",
           fmt::format("an integer from 1 to {}", kMostParticles), std::to_string(plan.particles),
@@ -174,7 +190,8 @@ void check(const Plan& plan, const std::string& where) {
           fmt::format("{}", s.exponent), "Pass --selection-exponent 1.");
   if (plan.filter == FilterKind::kImh || plan.filter == FilterKind::kAuxiliary) check_chain(plan, where);
   if (plan.filter == FilterKind::kDistributed) check_groups(plan, where);
-  if (plan.team != nullptr) check_ranks(plan, where);
+  if (has_cast(plan)) check_cast(plan, where);
+  if (plan.team != nullptr && !has_cast(plan)) check_ranks(plan, where);
 }
 
 }  // namespace mote

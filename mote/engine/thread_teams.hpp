@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <barrier>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
 #include <thread>
 #include <vector>
 
-#include "mote/engine/team.hpp"
+#include "mote/engine/messages.hpp"
 
 namespace mote {
 
@@ -15,7 +18,8 @@ namespace mote {
 /// cost    two barriers an operation; for tests
 class ThreadTeams {
  public:
-  explicit ThreadTeams(std::size_t ranks) : boards_(ranks), barrier_(static_cast<std::ptrdiff_t>(ranks)) {}
+  explicit ThreadTeams(std::size_t ranks)
+      : boards_(ranks), boxes_(ranks * ranks), barrier_(static_cast<std::ptrdiff_t>(ranks)) {}
 
   /// Calls work(team) on every rank, side by side; returns when all are done.
   template <class Work>
@@ -38,7 +42,14 @@ class ThreadTeams {
     std::span<const std::byte> column;
   };
 
-  class Member final : public Team {
+  /// Messages from one rank to another.
+  struct Box {
+    std::mutex mutex;
+    std::condition_variable filled;
+    std::deque<std::vector<std::byte>> messages;
+  };
+
+  class Member final : public MessagingTeam {
    public:
     Member(ThreadTeams& teams, std::size_t rank) : teams_(&teams), rank_(rank) {}
     std::size_t rank() const override { return rank_; }
@@ -103,6 +114,31 @@ class ThreadTeams {
       });
     }
 
+    void send(std::size_t to, std::span<const std::byte> bytes) override {
+      Box& box = teams_->boxes_[rank_ * ranks() + to];
+      const std::lock_guard lock(box.mutex);
+      box.messages.emplace_back(bytes.begin(), bytes.end());
+      box.filled.notify_one();
+    }
+    void expect(std::size_t from, std::span<std::byte> bytes) override { expected_.push_back({from, bytes}); }
+    void await() override {
+      const ParcelIn parcel = expected_.front();
+      expected_.pop_front();
+      Box& box = teams_->boxes_[parcel.rank * ranks() + rank_];
+      std::unique_lock lock(box.mutex);
+      box.filled.wait(lock, [&] { return !box.messages.empty(); });
+      std::copy(box.messages.front().begin(), box.messages.front().end(), parcel.bytes.begin());
+      box.messages.pop_front();
+    }
+    void share(std::span<std::byte> bytes) override {
+      const ParcelOut shown{0, bytes};
+      mine().parcels = {&shown, 1};
+      after_all([&] {
+        const std::span<const std::byte> from = teams_->boards_[0].parcels[0].bytes;
+        if (rank_ != 0) std::copy(from.begin(), from.end(), bytes.begin());
+      });
+    }
+
    private:
     Board& mine() { return teams_->boards_[rank_]; }
     /// Reads the boards when every rank has written its own, and goes on when every rank has read.
@@ -115,9 +151,11 @@ class ThreadTeams {
 
     ThreadTeams* teams_;
     std::size_t rank_;
+    std::deque<ParcelIn> expected_;
   };
 
   std::vector<Board> boards_;
+  std::vector<Box> boxes_;  // from rank r to rank s: r R + s
   std::barrier<> barrier_;
 };
 

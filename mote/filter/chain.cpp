@@ -48,6 +48,12 @@ void Chains::take(std::size_t first, std::size_t last) {
   for (; j < last; ++j) visit(chains_[(j - layout_.draws) / layout_.burn_in], j);
 }
 
+std::array<std::span<std::byte>, 2> Chains::outcome(std::size_t first, std::size_t last) {
+  const std::size_t kept = kept_by_.begin(first);
+  return {std::as_writable_bytes(std::span(chains_).subspan(first, last - first)),
+          std::as_writable_bytes(picks_.subspan(kept, kept_by_.begin(last) - kept))};
+}
+
 ChainReport Chains::report() const {
   ChainReport all;
   for (const Chain& chain : chains_) {

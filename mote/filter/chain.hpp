@@ -2,6 +2,7 @@
 /// The independent Metropolis chain over weighted proposals: selection without a sum of weights.
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -60,6 +61,8 @@ class Chains {
   void take(std::size_t first, std::size_t last);
   /// Counts so far.
   ChainReport report() const;
+  /// What chains [first, last) have come to, where it lies: for those who run some chains and are told of others.
+  std::array<std::span<std::byte>, 2> outcome(std::size_t first, std::size_t last);
 
  private:
   /// One chain: where it is, where it started.

@@ -177,7 +177,13 @@ class MetropolisFilter final : public Filter {
     if (chains_flow()) {
       stages.lines = lines_of(layout_, runner_->lines());
       stages.take = [&](Stretch stretch) { chains.take(stretch.first, stretch.last); };
+      stages.outcome = [&](std::size_t line) {
+        const Cut of_line = chains_by_line(layout_, runner_->lines());
+        const auto [at, picks] = chains.outcome(of_line.begin(line), of_line.begin(line + 1));
+        return Memory{at, picks};
+      };
     }
+    stages.memory = [&](Stretch stretch) { return memory_of(stretch); };
     runner_->run(stages);
     if (chains_flow()) chosen_ = chains.report();
   }
@@ -223,6 +229,16 @@ class MetropolisFilter final : public Filter {
       }
     }
     weigh<M, R>(model_, t, y, proposals_, log_weights_, stretch.first, stretch.last);
+  }
+
+  /// All that is known of a stretch of proposals.
+  Memory memory_of(Stretch stretch) {
+    Memory memory;
+    add_columns(memory, proposals_, stretch);
+    add_column(memory, std::span(log_weights_), stretch);
+    add_column(memory, std::span(log_uniforms_), stretch);
+    if constexpr (!std::is_same_v<G, Prior>) add_column(memory, std::span(parents_), stretch);
+    return memory;
   }
 
   /// Runs the chains over all proposals at once.

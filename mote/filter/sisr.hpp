@@ -124,7 +124,13 @@ class ImportanceFilter final : public Filter {
                     propose(at, stretch);
                   },
                   std::move(weigh),
-                  {}});
+                  {},
+                  [&](Stretch stretch) {
+                    Memory memory;
+                    add_columns(memory, cloud_.x, stretch);
+                    add_column(memory, std::span(cloud_.log_weights), stretch);
+                    return memory;
+                  }});
   }
 
   StepReport told(const Settled& step) {

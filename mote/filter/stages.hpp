@@ -14,6 +14,9 @@ struct Stretch {
   std::size_t size() const { return last - first; }
 };
 
+/// Pieces of memory, in an order of their own.
+using Memory = std::vector<std::span<std::byte>>;
+
 /// What a step does to its particles, as stages over stretches of them.
 ///
 /// A stretch is proposed, then weighed, then taken; those of one line are taken in its order. Otherwise they may be
@@ -25,6 +28,9 @@ struct Stages {
   std::function<void(std::size_t proposer, std::size_t line, Stretch stretch)> propose;
   std::function<void(Stretch stretch)> weigh;  ///< empty: nothing is weighed
   std::function<void(Stretch stretch)> take;   ///< empty: nobody takes
+  /// What is known of a stretch, and what a line's takers have come to: to be handed on where workers share no memory.
+  std::function<Memory(Stretch stretch)> memory = {};
+  std::function<Memory(std::size_t line)> outcome = {};
 };
 
 /// Runs stages.
@@ -68,10 +74,26 @@ inline StageRunner& stage_by_stage() {
   return runner;
 }
 
+/// Adds a stretch of a column to the pieces.
+template <class T>
+void add_column(Memory& memory, std::span<T> column, Stretch stretch) {
+  memory.push_back(std::as_writable_bytes(column.subspan(stretch.first, stretch.size())));
+}
+/// Adds a stretch of particles.
+template <class R>
+void add_columns(Memory& memory, Particles<R>& x, Stretch stretch) {
+  for (std::size_t d = 0; d < x.dimensions(); ++d) add_column(memory, x.component(d), stretch);
+}
+
+/// Which chains of a layout are in each of at most `lines` lines.
+inline Cut chains_by_line(const ChainLayout& layout, std::size_t lines) {
+  return {layout.chains, std::min(lines, layout.chains)};
+}
+
 /// The proposals of a layout in `lines` lines of whole chains, each burnt in first.
 inline std::vector<std::vector<Stretch>> lines_of(const ChainLayout& layout, std::size_t lines) {
   std::vector<std::vector<Stretch>> all(std::min(lines, layout.chains));
-  const Cut chains(layout.chains, all.size());
+  const Cut chains = chains_by_line(layout, lines);
   const Cut drawn(layout.draws, layout.chains);
   for (std::size_t k = 0; k < all.size(); ++k) {
     const std::size_t first = chains.begin(k);

@@ -68,6 +68,35 @@ TEST_F(Mpi, IsATeamOfOneWithoutMpirun) {
   EXPECT_EQ(scratch_.read("m.csv"), scratch_.read("e.csv"));
 }
 
+/// As many ranks as a cast has, with its options.
+struct Cast {
+  int ranks;
+  std::string options;
+};
+
+// claim    proposers, weighers and chains on ranks of their own give the bytes of the reference engine
+TEST_F(Mpi, GivesTheBytesOfTheReferenceByStages) {
+  ASSERT_EQ(scratch_.shell("mote simulate ungm --seed 3 --steps 4 --out d.csv").code, 0);
+  for (const Cast& c : std::vector<Cast>{
+           {3, "--filter sisr --proposers 1 --weighers 1"},
+           {5, "--filter sisr --proposers 2 --weighers 2 --resampler residual"},
+           {4, "--filter imh --proposers 1 --weighers 2 --burn-in 30"},
+           {8, "--filter imh --proposers 3 --weighers 2 --chains 3 --draws 3000"},
+           {5, "--filter auxiliary --proposers 1 --weighers 2 --chains 2 --parents permuted --chain-start weighted"}}) {
+    const std::string run =
+        "run ungm --data d.csv -n 2500 --estimate 'q0.9(x)' --out e.csv --dump-particles p.csv " + c.options;
+    const std::string alone = run.substr(0, run.find(" --proposers")) + run.substr(run.find(" --weighers") + 13);
+    ASSERT_EQ(scratch_.shell("mote " + alone + " --engine reference").code, 0) << alone;
+    const auto expected = scratch_.files();
+    std::filesystem::remove(scratch_.path() / "e.csv");
+    std::filesystem::remove(scratch_.path() / "p.csv");
+    const Ended ended = on(c.ranks, run + " --engine mpi");
+    EXPECT_EQ(ended.code, 0) << c.options << "\n" << ended.err;
+    EXPECT_EQ(scratch_.files(), expected) << c.options;
+    EXPECT_EQ(times(ended.out, "mpi engine"), 1) << "rank 0 alone speaks: " << ended.out;
+  }
+}
+
 struct Refusal {
   std::string words;
   int code;
@@ -90,6 +119,11 @@ TEST_F(Mpi, RefusesOnceForAllRanks) {
             "--resampler residual --selection-exponent 1 --proposal prior. Pass --engine fastest"},
            {run + "--estimate 'P(nothing>0)'", 2, "got P(nothing>0)"},
            {run + "--dump-particles no/p.csv", 6, "no/p.csv: expected an output that can be written"},
+           {run + "--filter imh --proposers 2", 2,
+            "4 ranks: 2 that propose, 1 that weigh, 1 with a chain, got 3. Start"},
+           {run + "--filter sqmc --weighers 1", 2, "--weighers: expected --filter sisr, imh or auxiliary, got"},
+           {run + "--filter imh --burn-in auto --weighers 1", 2, "--burn-in auto, which waits for all weights"},
+           {run + "--filter imh --data far.csv --weighers 1", 4, "t = 1: the filter collapsed"},
            {run + "--checkpoint-every 3", 2, "--checkpoint-every: expected --checkpoint FILE beside it"},
            {run + "--checkpoint far.csv", 3, "far.csv: expected a checkpoint of mote run, got a file of another kind"},
            {run + "--proposal nope", 2, "--proposal: expected one of the model's proposals"},
@@ -122,6 +156,24 @@ TEST_F(Mpi, ALostRankEndsTheJob) {
   EXPECT_NE(end.code, 0);
   EXPECT_NE(end.err.find("exited on signal 9"), std::string::npos) << end.err;
   EXPECT_EQ(scratch_.files().size(), 1U) << "no output, whole or half";
+}
+
+TEST_F(Mpi, ALostStageEndsTheJob) {
+  std::string data = "t,y\n";
+  for (int t = 1; t <= 100000; ++t) data += std::to_string(t) + ",1000\n";
+  scratch_.write("d.csv", data);
+  for (const std::size_t rank : {0, 1, 2}) {  // chain, proposer, weigher
+    Job job(scratch_, 3,
+            {"run", "local-level", "--data", "d.csv", "--out", "e.csv", "-n", "20000", "--filter", "imh", "--engine",
+             "mpi", "--proposers", "1", "--weighers", "1"});
+    ASSERT_EQ(job.started(), 3U);
+    job.signal_rank(rank, SIGKILL, std::chrono::milliseconds(600));
+    const auto start = std::chrono::steady_clock::now();
+    const auto end = job.end();
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+    EXPECT_NE(end.err.find("exited on signal 9"), std::string::npos) << end.err;
+    EXPECT_EQ(scratch_.files().size(), 1U) << "no output, whole or half";
+  }
 }
 
 // Any rank may be lost at any time, also while it hands its state to rank 0 or rank 0 writes it.

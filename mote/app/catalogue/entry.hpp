@@ -3,7 +3,7 @@
 
 #include "mote/app/catalogue/catalogue.hpp"
 #include "mote/app/catalogue/simd.hpp"
-#include "mote/software/pipeline/pipelined.hpp"
+#include "mote/software/pipeline/ranked.hpp"
 #include "mote/software/reference.hpp"
 
 namespace mote {
@@ -21,6 +21,7 @@ class CatalogueModelOf final : public CatalogueModel {
       case Engine::kMpi:
         if (plan.team == nullptr) refuse_without_team(where);
         if (plan.filter == FilterKind::kDistributed) return make_reference_filter(model_, plan, where);
+        if (has_cast(plan)) return make_ranked_filter(model_, plan, where);
         [[fallthrough]];
       case Engine::kSimd:
         return simd_filter(model_, plan, where);

@@ -79,6 +79,7 @@ Arguments arguments_from(const std::string& where, const std::vector<OptionSpec>
 
 Command models_command();
 Command simulate_command();
+Command simulate_cluster_command();
 Command compare_command();
 Command bench_command();
 Command reproduce_command();

@@ -4,23 +4,22 @@
 #include <string>
 #include <vector>
 
+#include "mote/app/terminal/outside.hpp"
+
 namespace mote {
+
+/// The path of a program that lies beside this one.
+std::string beside(const std::string& name);
 
 /// Becomes the program mote-track, with the same words: it loads OpenCV, which costs a tenth of a second.
 ///
 /// error   Refusal (kOutsideTool) when that program is not beside this one or does not start; else never returns
 [[noreturn]] void hand_over_to_tracker(char** words);
 
-/// How a run of mote-track ended.
-struct TrackerEnd {
-  int code;           ///< its exit code; 128 and the signal's number when a signal ended it
-  std::string error;  ///< what it told standard error
-};
-
 /// Runs mote-track and waits for its end; words are those after its name.
 ///
 /// error   Refusal (kOutsideTool) when that program is not beside this one or does not start
-TrackerEnd run_tracker(const std::vector<std::string>& words);
+OutsideEnd run_tracker(const std::vector<std::string>& words);
 
 /// Becomes the program mote-mpi, which loads Open MPI.
 ///

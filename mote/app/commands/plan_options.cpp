@@ -107,14 +107,17 @@ std::vector<OptionSpec> plan_options() {
        "carried = properly weighted; reset = every group counts alike after resampling (PPF)", groups},
       {"--engine", "NAME", "fastest",
        "simd (vectors and threads: sisr, imh, auxiliary), reference (all filters), the fastest of them that has the "
-       "filter; mpi (sisr on the processes of mpirun); or pipeline (sisr, imh, auxiliary: proposing, weighing and "
+       "filter; mpi (sisr on the processes of mpirun; with --proposers or --weighers sisr, imh, auxiliary, a process "
+       "for "
+       "each stage's worker and each chain); or pipeline (sisr, imh, auxiliary: proposing, weighing and "
        "chains side by side)",
        engine},
       {"--threads", "K", "",
        "threads; results never depend on it; the reference engine uses one [all cores; mpi: one a process]", engine},
       {"--precision", "TYPE", "double", "float or double", engine},
-      {"--proposers", "R", "", "pipeline: blocks of particles proposed at once, from 1 to 64 [1]", engine},
-      {"--weighers", "R", "", "pipeline: blocks weighed at once, from 1 to 64 [1]", engine},
+      {"--proposers", "R", "",
+       "pipeline: blocks of particles proposed at once, mpi: processes that propose, from 1 to 64 [1]", engine},
+      {"--weighers", "R", "", "pipeline: blocks weighed at once, mpi: processes that weigh, from 1 to 64 [1]", engine},
       {"--budget", "TIME", "", "not in this version", engine},
   };
 }

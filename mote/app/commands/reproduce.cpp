@@ -72,13 +72,12 @@ std::vector<Laboratory> laboratories_for(const std::vector<std::string>& papers,
   return all;
 }
 
-/// Takes out the items whose clip is not there; returns what is to be said of them.
+/// Takes out the items whose clip, or whose simulator, is not there; returns what is to be said of them.
 std::vector<std::string> take_out_missing(std::vector<Laboratory>& laboratories) {
   std::vector<std::string> said;
   for (const Laboratory& laboratory : laboratories)
     if (const std::string missing = laboratory.missing(); !missing.empty())
-      said.push_back(fmt::format("skipped {} {}: there is no {}. Set MOTE_DATA to the folder with clips/.",
-                                 laboratory.item().paper, laboratory.item().name, missing));
+      said.push_back(fmt::format("skipped {} {}: {}", laboratory.item().paper, laboratory.item().name, missing));
   std::erase_if(laboratories, [](const Laboratory& laboratory) { return !laboratory.missing().empty(); });
   return said;
 }

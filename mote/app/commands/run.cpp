@@ -20,6 +20,7 @@
 #include "mote/app/files/text.hpp"
 #include "mote/app/terminal/progress.hpp"
 #include "mote/app/terminal/signals.hpp"
+#include "mote/engine/messages.hpp"
 
 namespace mote {
 namespace {
@@ -71,6 +72,12 @@ void open_outputs(Prepared& run, const Arguments& arguments) {
   run.dump = run.outputs.open(arguments.text("--dump-particles"));
 }
 
+void prepare_dump(Prepared& run) {
+  if (run.dump == nullptr) return;
+  run.dump->write(particles_header(run.request.states));
+  run.request.dump = [&run](Step t, const WeightedSet& set) { write_particles(*run.dump, t, set); };
+}
+
 /// Reads and checks everything; the outputs are this process's if it writes them.
 void prepare(Prepared& run, const Arguments& arguments, Team* team, bool writes) {
   run.start = Clock::now();
@@ -83,19 +90,18 @@ void prepare(Prepared& run, const Arguments& arguments, Team* team, bool writes)
   run.job.command = arguments.command_line();
   run.request = request_for(run.job, arguments.list("--estimate"), arguments.where());
   check_memory(run.plan, run.job, arguments.where());
+  const bool has_particles = writes || !has_cast(run.plan);  // by stages they are with rank 0
+  if (!has_particles) run.request.estimands.clear();
+  if (has_particles && !writes && arguments.given("--dump-particles"))
+    run.request.dump = [](Step, const WeightedSet&) {};  // which takes part in bringing them together
   if (!writes) return;
   open_outputs(run, arguments);
+  prepare_dump(run);
   run.checkpoint = checkpoint_from(arguments, run.plan, run.job);
   if (run.checkpoint && run.checkpoint->found())
     run.job.notes.push_back(arguments.text("--checkpoint") + ": note: the run goes on from there.");
   for (const std::string& note : notes_on_unread(arguments, run.plan)) run.job.notes.push_back(note);
   for (const std::string& note : run.job.notes) fmt::print(stderr, "{}\n", printable(note));
-}
-
-void prepare_dump(Prepared& run) {
-  if (run.dump == nullptr) return;
-  run.dump->write(particles_header(run.request.states));
-  run.request.dump = [&run](Step t, const WeightedSet& set) { write_particles(*run.dump, t, set); };
 }
 
 /// A run that was told to stop ends here.
@@ -143,7 +149,6 @@ ExitCode run_alone(const Arguments& arguments) {
   prepare(run, arguments, nullptr, true);
   run.request.stop = &stop;
   if (run.checkpoint) run.request.checkpoint = &*run.checkpoint;
-  prepare_dump(run);
   RunRecord record;
   {
     Progress progress("steps");
@@ -158,11 +163,7 @@ ExitCode run_alone(const Arguments& arguments) {
 ExitCode run_in_team(const Arguments& arguments, Team& team) {
   const bool writes = team.rank() == 0;
   Prepared run;
-  together(team, [&] {
-    prepare(run, arguments, &team, writes);
-    prepare_dump(run);
-  });
-  if (!writes && arguments.given("--dump-particles")) run.request.dump = [](Step, const WeightedSet&) {};
+  together(team, [&] { prepare(run, arguments, &team, writes); });
   RunRecord record;
   try {
     const bool kept = arguments.given("--checkpoint");

@@ -140,10 +140,10 @@ std::vector<std::string> Cinema::words(const Bench& bench, std::uint64_t repeat)
 
 void Cinema::run_words(const std::vector<std::string>& words) const {
   if (stop_flag()) throw Refusal(ExitCode::kInterrupted, "mote reproduce: interrupted; no file was written.");
-  const TrackerEnd end = run_tracker(words);
+  const OutsideEnd end = run_tracker(words);
   if (end.code == 0) return;
   const auto code = end.code == 4 || end.code == 130 ? static_cast<ExitCode>(end.code) : ExitCode::kOutsideTool;
-  std::string said = end.error.substr(0, end.error.find_last_not_of('\n') + 1);
+  std::string said = end.err.substr(0, end.err.find_last_not_of('\n') + 1);
   said.erase(0, said.rfind('\n') + 1);  // its last line: notes stand before
   throw Refusal(code, fmt::format("{} {}: {}", paper_, name_, said.empty() ? "mote-track failed." : said));
 }

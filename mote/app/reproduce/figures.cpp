@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include <fmt/format.h>
+
 #include "mote/app/compare/statistics.hpp"
 #include "mote/app/files/output.hpp"
 
@@ -158,6 +160,30 @@ std::string errors_csv(const Outcome& outcome) {
   return csv;
 }
 
+/// Time or speed-up along the stage whose ranks are varied, a line for each run.
+void draw_clusters(Chart& chart, const Figure& figure, const Outcome& outcome) {
+  bool weighers = false;
+  for (const auto& [name, sweep] : outcome.sweeps) weighers = weighers || sweep.weighers.size() > 1;
+  chart.x_label = weighers ? "weighers R_w" : "proposers R_p";
+  chart.y_label = figure.quantity == "speedup" ? "times the first setting" : "s";
+  for (const auto& [name, sweep] : outcome.sweeps) {
+    if (!draws(figure, name)) continue;
+    Series& series = chart.series.emplace_back(Series{.name = name, .mark = Series::Mark::kMarkedLine});
+    for (const simulated::SweepRun& run : sweep.runs)
+      add(series, static_cast<double>(weighers ? run.cast.weighers : run.cast.proposers),
+          figure.quantity == "speedup" ? run.speedup : run.seconds_per_step * static_cast<double>(sweep.work.steps));
+  }
+}
+
+std::string sweeps_csv(const Outcome& outcome) {
+  std::string csv = "run,proposers,weighers,chains,seconds_per_step,law_seconds,speedup\n";
+  for (const auto& [name, sweep] : outcome.sweeps)
+    for (const simulated::SweepRun& run : sweep.runs)
+      csv += fmt::format("{},{},{},{},{},{},{}\n", slug(name), run.cast.proposers, run.cast.weighers, run.cast.chains,
+                         exact(run.seconds_per_step), exact(run.law_seconds), exact(run.speedup));
+  return csv;
+}
+
 std::string tracks_csv(const Outcome& outcome) {
   std::string csv = "run,particles,repeat";
   for (const std::string_view key : kTrackKeys) csv += "," + std::string(key);
@@ -187,6 +213,8 @@ Chart chart_of(const Item& item, const Figure& figure, const Outcome& outcome) {
     draw_sweep(chart, figure, outcome);
   } else if (!figure.against.empty()) {
     draw_errors(chart, item, figure, outcome);
+  } else if (item.cluster) {
+    draw_clusters(chart, figure, outcome);
   } else if (figure.state.empty()) {
     draw_track(chart, figure, outcome);
   } else {
@@ -199,6 +227,7 @@ std::string figure_csv(const Outcome& outcome) {
   if (!outcome.tradeoffs.empty()) return tradeoff_csv(outcome);
   if (!outcome.tracks.empty()) return tracks_csv(outcome);
   if (!outcome.errors.empty()) return errors_csv(outcome);
+  if (!outcome.sweeps.empty()) return sweeps_csv(outcome);
   std::string csv = "t";
   for (const Quantity& state : outcome.states) csv += ",truth_" + state.name;
   for (const auto& [name, record] : outcome.records)

@@ -18,10 +18,10 @@ constexpr std::int64_t kMostSteps = 1'000'000;
 constexpr std::int64_t kMostRepeats = 10'000;
 
 /// Kinds in the order of the enumeration.
-constexpr std::array<std::string_view, 14> kKinds{
-    "mean-difference", "mean-spread",     "rmse",    "normalised-error", "final-bias",    "reference-error",
-    "recovered",       "evidence-spread", "summary", "resample-error",   "resample-time", "resample-cost",
-    "track",           "particles-enough"};
+constexpr std::array<std::string_view, 15> kKinds{
+    "mean-difference", "mean-spread",      "rmse",    "normalised-error", "final-bias",    "reference-error",
+    "recovered",       "evidence-spread",  "summary", "resample-error",   "resample-time", "resample-cost",
+    "track",           "particles-enough", "cluster"};
 constexpr std::array<std::string_view, 3> kUnits{"standard-error", "posterior-sd", "absolute"};
 constexpr std::array<std::string_view, 2> kMiddles{"mean", "median"};
 
@@ -81,6 +81,12 @@ Clip drawn_from(Fields fields) {
   return clip;
 }
 
+std::vector<std::string> cluster_from(Fields fields) {
+  std::vector<std::string> options = fields.texts("options");
+  fields.finish();
+  return options;
+}
+
 /// The level of a figure or comparison: one of the item's.
 double level_from(Fields& fields, const WeightSource& weights) {
   const auto level = fields.number("ess");
@@ -103,10 +109,12 @@ std::vector<int> rising(Fields& fields, std::string_view key) {
 /// The run of a table, or a run for each number of its list: of particles on a clip, of an option's values else.
 std::vector<Run> runs_from(Fields fields, const Item& item) {
   Run run{fields.where(), fields.text("name"), fields.texts("options"), {}};
-  if (!item.clip) run.settings = fields.texts("set");
-  const std::string swept = item.clip ? "" : fields.text_or("sweep", "");
-  const std::vector<int> numbers = rising(fields, item.clip ? "particles" : "values");
-  if (!item.clip && swept.empty() != numbers.empty()) fields.refuse("sweep", "an option, and a list of its values");
+  const bool filters = !item.clip && !item.cluster;
+  if (filters) run.settings = fields.texts("set");
+  const std::string swept = filters ? fields.text_or("sweep", "") : "";
+  const std::vector<int> numbers =
+      item.cluster ? std::vector<int>{} : rising(fields, item.clip ? "particles" : "values");
+  if (filters && swept.empty() != numbers.empty()) fields.refuse("sweep", "an option, and a list of its values");
   std::vector<Run> runs;
   for (const int number : numbers) {
     Run& one = runs.emplace_back(run);
@@ -143,6 +151,8 @@ Figure figure_from(Fields fields, const Item& item) {
     figure.ess = level_from(fields, *item.weights);
   } else if (item.clip) {
     figure.frames = rising(fields, "frames");
+  } else if (item.cluster) {
+    figure.quantity = kClusterKeys[fields.choice("quantity", kClusterKeys)];
   } else {
     figure.state = fields.text_or("state", "");
     figure.error = fields.yes("error");
@@ -191,10 +201,11 @@ void read_condition(Fields& fields, Comparison& c) {
 
 /// The kind, of those that the item's source can answer.
 Kind kind_from(Fields& fields, const Item& item) {
-  const std::size_t first = static_cast<std::size_t>(item.weights ? Kind::kResampleError
-                                                     : item.clip  ? Kind::kTrack
-                                                                  : Kind{});
-  const std::size_t count = item.weights ? 3 : item.clip ? 2 : 9;
+  const std::size_t first = static_cast<std::size_t>(item.weights   ? Kind::kResampleError
+                                                     : item.clip    ? Kind::kTrack
+                                                     : item.cluster ? Kind::kCluster
+                                                                    : Kind{});
+  const std::size_t count = item.weights ? 3 : item.clip ? 2 : item.cluster ? 1 : 9;
   const auto known = std::span(kKinds).subspan(first, count);
   if (!fields.has("kind")) fields.refuse("kind", fmt::format("one of {}", fmt::join(known, ", ")));
   return static_cast<Kind>(fields.choice("kind", known) + first);
@@ -213,7 +224,12 @@ Comparison comparison_from(Fields fields, const Item& item) {
   if (c.kind == Kind::kParticlesEnough) c.slack = fields.number("slack").value_or(0.1);
   if (c.kind == Kind::kMeanDifference) c.unit = static_cast<Comparison::Unit>(fields.choice("unit", kUnits));
   if (averages(c.kind)) c.median = fields.choice("over", kMiddles) == 1;
-  c.repeats = static_cast<int>(fields.integer("repeats", 2, kMostRepeats, 20));
+  if (c.kind == Kind::kCluster) {
+    c.key = kClusterKeys[fields.choice("key", kClusterKeys)];
+    c.cast.proposers = static_cast<std::size_t>(fields.integer("proposers", 1, 64, 1));
+    c.cast.weighers = static_cast<std::size_t>(fields.integer("weighers", 1, 64, 1));
+  }
+  c.repeats = c.kind == Kind::kCluster ? 1 : static_cast<int>(fields.integer("repeats", 2, kMostRepeats, 20));
   read_condition(fields, c);
   c.note = fields.text_or("note", "");
   fields.finish();
@@ -234,11 +250,13 @@ Item read_item(const std::string& path, const std::string& paper) {
   item.printed = fields.text("printed");
   item.note = fields.text_or("note", "");
   int sources = 0;
-  for (const char* table : {"simulate", "data", "weights", "clip", "drawn"}) sources += fields.has(table);
-  if (sources != 1) fields.refuse("simulate", "one of the tables [simulate], [data], [weights], [clip] and [drawn]");
+  for (const char* table : {"simulate", "data", "weights", "clip", "drawn", "cluster"}) sources += fields.has(table);
+  if (sources != 1)
+    fields.refuse("simulate", "one of the tables [simulate], [data], [weights], [clip], [drawn] and [cluster]");
   if (fields.has("weights")) item.weights = weights_from(fields.table("weights"));
   if (fields.has("clip")) item.clip = clip_from(fields.table("clip"));
   if (fields.has("drawn")) item.clip = drawn_from(fields.table("drawn"));
+  if (fields.has("cluster")) item.cluster = cluster_from(fields.table("cluster"));
   if (fields.has("data")) item.recording = data_from(fields.table("data"), path);
   if (fields.has("simulate")) item.recording = simulated_from(fields.table("simulate"));
   for (const Fields& table : fields.tables("run"))
@@ -293,6 +311,10 @@ std::string meaning_of(const Comparison& c) {
       return "Cost of resampling: its error times its time" + weights;
     case Kind::kTrack:
       return fmt::format("Figure of a track, {} over filter seeds and drawn clips", kMiddles[c.median ? 1 : 0]);
+    case Kind::kCluster:
+      return fmt::format("{} on a simulated cluster, {} proposers, {} weighers",
+                         c.key == "speedup" ? "Speed-up over the first setting" : "Seconds of all steps",
+                         c.cast.proposers, c.cast.weighers);
     case Kind::kParticlesEnough:
       return fmt::format(
           "Particles that are enough: the least number from which on the centre error, a mean over filter seeds and "

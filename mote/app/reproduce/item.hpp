@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mote/app/reproduce/resampling.hpp"
+#include "mote/engine/messages.hpp"
 
 namespace mote::reproduce {
 
@@ -67,6 +68,7 @@ struct Comparison {
     kResampleCost,     ///< the product of both: what halves when a scheme needs half the draws or half the time
     kTrack,            ///< on a clip: a figure of the track's summary
     kParticlesEnough,  ///< on a clip: the least number of particles whose centre error is near that of the most
+    kCluster,          ///< on a simulated cluster: time of all steps, or speed-up, of a cast
   };
   /// What a mean difference is measured in.
   enum class Unit { kStandardError, kPosteriorSd, kAbsolute };
@@ -79,6 +81,7 @@ struct Comparison {
   std::string key;                   ///< of the summary
   double slack = 0;                  ///< of kParticlesEnough: share that the centre error may be above that of the most
   double ess = 0;                    ///< level of the weights
+  Cast cast = {};                    ///< of kCluster: proposers and weighers of the setting that is asked for
   Unit unit = Unit::kStandardError;  ///< of a mean difference
   bool median = false;               ///< over the repeats, instead of the mean
   int repeats = 20;
@@ -100,14 +103,16 @@ struct Figure {
   std::string against =
       {};            ///< draw the error to the posterior mean against this: a key of kAgainst; `runs` may be series
   int repeats = 20;  ///< of such a figure
+  std::string quantity = {};  ///< of an item on clusters: a key of kClusterKeys, over the ranks
 };
 
 /// One item.
 struct Item {
   std::string file, paper, name, title, source, printed, note;
-  Source recording;                     ///< of an item without weights
-  std::optional<WeightSource> weights;  ///< resamplers on given weights, instead of filters on a recording
-  std::optional<Clip> clip;             ///< or the tracker on a clip
+  Source recording;                                 ///< of an item without weights
+  std::optional<WeightSource> weights;              ///< resamplers on given weights, instead of filters on a recording
+  std::optional<Clip> clip;                         ///< or the tracker on a clip
+  std::optional<std::vector<std::string>> cluster;  ///< or steps on simulated clusters: options of every run
   std::vector<Run> runs;
   std::vector<Figure> figures;
   std::vector<Comparison> comparisons;
@@ -120,6 +125,9 @@ inline constexpr std::array<std::string_view, 7> kSummaryKeys{
 
 /// What an error may be drawn against: what the groups of a run send, or the number that its series sweeps.
 inline constexpr std::array<std::string_view, 3> kAgainst{"bytes_per_step", "messages_per_step", "number"};
+
+/// The figures of a cast on a simulated cluster: seconds of all steps, and the first setting's over them.
+inline constexpr std::array<std::string_view, 2> kClusterKeys{"seconds", "speedup"};
 
 /// The figures of a track that a comparison may ask for; those of time are a particle's stages in microseconds, and how
 /// much longer than the others its weight takes.

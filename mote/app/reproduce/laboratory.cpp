@@ -73,6 +73,10 @@ Laboratory::Laboratory(Item item) : item_(std::move(item)) {
     cinema_ = std::make_unique<Cinema>(item_);
     return;
   }
+  if (item_.cluster) {
+    clusters_ = as_bad_data([&] { return std::make_unique<Clusters>(item_); });
+    return;
+  }
   const Source& from = item_.recording;
   header_ = from.simulated() ? frame_header(from.columns) : read_table(from.observations).header;
   source_ = model_with(from.settings, from.where);
@@ -136,8 +140,15 @@ void Laboratory::check_comparisons() const {
   }
 }
 
+std::string Laboratory::missing() const {
+  if (clusters_) return clusters_->missing();
+  const std::string clip = cinema_ ? cinema_->missing() : "";
+  return clip.empty() ? "" : fmt::format("there is no {}. Set MOTE_DATA to the folder with clips/.", clip);
+}
+
 std::size_t Laboratory::work() const {
   if (cinema_) return cinema_->work();
+  if (clusters_) return clusters_->work();
   std::size_t runs = item_.weights ? 0 : item_.runs.size();
   for (const Comparison& c : item_.comparisons)
     runs += (c.kind == Kind::kNormalisedError ? 1 : c.runs.size()) * static_cast<std::size_t>(c.repeats);
@@ -219,6 +230,7 @@ std::vector<Tradeoff> Laboratory::tradeoffs() const {
 std::vector<double> Laboratory::sample(const Comparison& c, std::uint64_t repeat, std::size_t side) {
   if (item_.weights) return {resample_figure(c, repeat, side)};
   if (cinema_) return cinema_->sample(c, repeat, side, ran_);
+  if (clusters_) return {clusters_->figure(c, side, ran_)};
   const bool one_recording = repeats_one_recording(c.kind);
   const std::uint64_t apart = c.kind == Kind::kMeanDifference ? side * static_cast<std::uint64_t>(c.repeats) : 0;
   const RunRecord& run = record(c.runs[side], one_recording ? 0 : repeat, repeat + apart);
@@ -261,7 +273,8 @@ std::vector<double> Laboratory::sample(const Comparison& c, std::uint64_t repeat
     case Kind::kResampleCost:
     case Kind::kTrack:
     case Kind::kParticlesEnough:
-      break;  // of items on weights and clips
+    case Kind::kCluster:
+      break;  // of items on weights, clips and clusters
   }
   return {kNaN};
 }
@@ -400,12 +413,13 @@ void Laboratory::show_clips(Outcome& outcome) {
 Outcome Laboratory::regenerate(const std::function<void()>& ran) {
   ran_ = ran;
   Outcome outcome;
-  if (!item_.weights && !cinema_) run_filters(outcome);
+  if (!item_.weights && !cinema_ && !clusters_) run_filters(outcome);
   for (const Comparison& comparison : item_.comparisons) outcome.results.push_back(judged(comparison));
   for (const Figure& figure : item_.figures)
     if (!figure.against.empty()) outcome.errors[figure.title] = errors_of(figure);
   if (item_.weights) outcome.tradeoffs = tradeoffs();
   if (cinema_) show_clips(outcome);
+  if (clusters_) outcome.sweeps = clusters_->sweeps(ran_);
   return outcome;
 }
 

@@ -9,6 +9,7 @@
 #include "mote/app/catalogue/scene.hpp"
 #include "mote/app/commands/job.hpp"
 #include "mote/app/reproduce/cinema.hpp"
+#include "mote/app/reproduce/clusters.hpp"
 #include "mote/app/reproduce/item.hpp"
 #include "mote/app/reproduce/statistics.hpp"
 
@@ -51,6 +52,7 @@ struct Outcome {
   std::vector<TrackRow> tracks;                            ///< of an item on a clip, likewise
   std::vector<report::Picture> pictures;                   ///< of an item on a clip
   std::map<std::string, std::vector<ErrorRow>> errors;     ///< by title of a figure that draws them against something
+  std::vector<std::pair<std::string, simulated::Sweep>> sweeps;  ///< of an item on clusters, by run
   std::vector<Result> results;
 };
 
@@ -65,8 +67,8 @@ class Laboratory {
   explicit Laboratory(Item item);
 
   const Item& item() const { return item_; }
-  /// Where the item's clip should be and is not, so that the item cannot be regenerated; empty if nothing is missing.
-  std::string missing() const { return cinema_ ? cinema_->missing() : ""; }
+  /// Why the item cannot be regenerated, in a sentence: its clip or SimGrid is missing; empty if nothing is.
+  std::string missing() const;
   /// Filter runs that regenerate() takes, those it has made before included.
   std::size_t work() const;
   /// `ran` is called after every filter run.
@@ -112,6 +114,7 @@ class Laboratory {
   std::unique_ptr<referee::Solver> solver_;
   std::map<std::uint64_t, std::vector<std::vector<double>>> posterior_means_;  // by recording, (T, D)
   std::unique_ptr<Cinema> cinema_;                                             // of an item on a clip
+  std::unique_ptr<Clusters> clusters_;                                         // of an item on simulated clusters
   std::function<void()> ran_;
 };
 
