@@ -92,11 +92,12 @@ class MetropolisFilter final : public Filter {
   }
 
   StepReport predict(Step t) override {
+    const std::size_t words = words_of<R>(model_, Prior{}, t, some(), {});
     runner_->run({{0, set_.size()},
                   {{{0, set_.size()}}},
                   [&](std::size_t proposer, std::size_t line, Stretch stretch) {
                     Cursors& at = cursors(proposer, line);
-                    at.moves.go(draws(t), Purpose::kMove, stretch.first, words_of<R>(model_, Prior{}, t, some(), {}));
+                    at.moves.go(draws(t), Purpose::kMove, stretch.first, words);
                     move(model_, t, set_, at.moves, stretch.first, stretch.last);
                   },
                   {},
