@@ -337,13 +337,15 @@ std::vector<ErrorRow> Laboratory::errors_of(const Figure& figure) {
         const RunRecord& record = this->record(rows[i].run, r, r);
         errors[i].push_back(reference_error(record, r, figure.state));
         const Traffic traffic = summarise(record, nullptr).traffic_per_step;
-        rows[i].messages += traffic.messages / figure.repeats;
-        rows[i].bytes += traffic.bytes / figure.repeats;
+        rows[i].messages += traffic.messages;
+        rows[i].bytes += traffic.bytes;
       } catch (const Refusal& refusal) {
         if (refusal.code() != ExitCode::kCollapsed) throw;
         errors[i].push_back(kInfinity);
       }
   for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].messages /= figure.repeats;
+    rows[i].bytes /= figure.repeats;
     rows[i].error = compare::median(errors[i]);
     rows[i].interval = compare::bootstrap({errors[i].size(), 1}, [&](std::span<const std::size_t> places) {
       std::vector<double> drawn;
