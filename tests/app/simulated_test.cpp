@@ -134,6 +134,10 @@ class NotingTeam final : public Team {
     note("exchange", rest);
     team_->exchange(out, in);
   }
+  void complete(std::span<std::byte> column, std::span<const std::size_t> begins) override {
+    note("complete", column.size());
+    team_->complete(column, begins);
+  }
 
  private:
   void note(const std::string& what, std::size_t count) { notes_->push_back(what + " " + std::to_string(count)); }
