@@ -188,10 +188,10 @@ const std::vector<Case> kUse{
     {"PipelineHasNoGroups", kGood, kRun + "--engine pipeline --filter distributed", 2,
      "--engine pipeline: expected --filter sisr, imh or auxiliary, got --filter distributed"},
     {"ProposersOfAnotherEngine", kGood, kRun + "--proposers 2", 2,
-     "--proposers: expected --engine pipeline, whose stages it mans, got --engine simd. Pass --engine pipeline "
+     "--proposers: expected --engine pipeline or mpi, whose stages it mans, got --engine simd. Pass --engine pipeline "
      "--proposers 2"},
     {"WeighersOfTheReference", kGood, kRun + "--engine reference --weighers 3", 2,
-     "--weighers: expected --engine pipeline, whose stages it mans, got --engine reference"},
+     "--weighers: expected --engine pipeline or mpi, whose stages it mans, got --engine reference"},
     {"NoProposers", kGood, kRun + "--engine pipeline --proposers 0", 2,
      "--proposers: expected an integer from 1 to 64, got 0"},
     {"TooManyWeighers", kGood, kRun + "--engine pipeline --weighers 65", 2,
