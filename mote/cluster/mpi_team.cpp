@@ -23,7 +23,7 @@ void add_sums(void* in, void* in_out, int* length, MPI_Datatype*) {
   for (int i = 0; i < *length; ++i) to[i] += from[i];
 }
 
-class MpiTeam final : public MessagingTeam {
+class MpiTeam final : public Team {
  public:
   MpiTeam() {
     int number = 0;
@@ -167,6 +167,6 @@ void MpiSession::abort(int code) {
   std::abort();
 }
 
-std::unique_ptr<MessagingTeam> make_mpi_team() { return std::make_unique<MpiTeam>(); }
+std::unique_ptr<Team> make_mpi_team() { return std::make_unique<MpiTeam>(); }
 
 }  // namespace mote

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "mote/engine/messages.hpp"
+#include "mote/engine/team.hpp"
 
 namespace mote {
 
@@ -27,6 +27,6 @@ class MpiSession {
 /// cost    largest, add, before, gather, share: O(log R) messages one after the other; exchange: a message for each
 ///         parcel, or gigabyte of one; complete: as MPI_Allgatherv; send: a copy, and a wait where 64 messages have not
 ///         arrived yet
-std::unique_ptr<MessagingTeam> make_mpi_team();
+std::unique_ptr<Team> make_mpi_team();
 
 }  // namespace mote

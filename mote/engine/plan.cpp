@@ -6,7 +6,8 @@
 #include <fmt/format.h>
 
 #include "mote/base/refusal.hpp"
-#include "mote/engine/messages.hpp"
+#include "mote/engine/cast.hpp"
+#include "mote/engine/team.hpp"
 #include "mote/filter/particles.hpp"
 #include "mote/filter/topology.hpp"
 

@@ -19,7 +19,8 @@ struct Parcel {
 using ParcelOut = Parcel<const std::byte>;
 using ParcelIn = Parcel<std::byte>;
 
-/// Ranks 0, 1, ..., R-1, which all call the same operations in the same order. No result depends on R: sums are exact.
+/// Ranks 0, 1, ..., R-1, which all call the same operations in the same order, but for send(), expect() and await(). No
+/// result depends on R: sums are exact.
 ///
 /// error   none is survived: where a rank is lost the whole team ends
 class Team {
@@ -44,6 +45,16 @@ class Team {
   ///
   /// shape   begins: (R + 1,), from 0 on; elements of 4 or 8 bytes
   virtual void complete(std::span<std::byte> column, std::span<const std::size_t> begins) = 0;
+  /// Hands rank 0's bytes to all.
+  virtual void share(std::span<std::byte> bytes) = 0;
+
+  /// One rank to another, of which the others know nothing: sends a copy of the bytes, and may return before they
+  /// arrive. Those between two ranks arrive in the order in which they were sent.
+  virtual void send(std::size_t to, std::span<const std::byte> bytes) = 0;
+  /// Makes room for the next message of a rank, of this length; await() says when it is there.
+  virtual void expect(std::size_t from, std::span<std::byte> bytes) = 0;
+  /// Waits for the oldest message that was made room for.
+  virtual void await() = 0;
 
  protected:
   Team() = default;

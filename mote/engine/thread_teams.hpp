@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "mote/engine/messages.hpp"
+#include "mote/engine/team.hpp"
 
 namespace mote {
 
@@ -49,7 +49,7 @@ class ThreadTeams {
     std::deque<std::vector<std::byte>> messages;
   };
 
-  class Member final : public MessagingTeam {
+  class Member final : public Team {
    public:
     Member(ThreadTeams& teams, std::size_t rank) : teams_(&teams), rank_(rank) {}
     std::size_t rank() const override { return rank_; }

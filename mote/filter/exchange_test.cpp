@@ -21,7 +21,7 @@ struct Scene {
     }
   }
   Inbox<double> send_by(Exchange exchange, std::size_t count) {
-    return send(x, log_weights, groups, {.groups = 3, .exchange = exchange, .exchange_count = count}, 0);
+    return send(x, log_weights, Membership(groups), {.groups = 3, .exchange = exchange, .exchange_count = count}, 0);
   }
   double total() const { return std::exp(log_sum_exp(log_weights).log_sum); }
   /// Total weight by value.
@@ -176,7 +176,7 @@ TEST(Exchange, IsTheObviousOneOnEveryTopology) {
             }
             Bags expected = exchanged_obviously(bags_of(x, log_weights, groups, {}), exchange, topology, each, turn);
             const auto inbox =
-                send(x, log_weights, groups,
+                send(x, log_weights, Membership(groups),
                      {.groups = count, .exchange = exchange, .exchange_count = each, .topology = topology},
                      static_cast<std::size_t>(turn));
             Bags got = bags_of(x, log_weights, groups, inbox);
@@ -196,7 +196,7 @@ TEST(Exchange, IsTheObviousOneOnEveryTopology) {
 TEST(Exchange, TradesEvenlySpreadParticlesAndLosesNone) {
   Scene scene;
   const Scene before;
-  trade_evenly(scene.x, scene.log_weights, scene.groups, {.groups = 3, .exchange_count = 2}, 0);
+  trade_evenly(scene.x, scene.log_weights, Membership(scene.groups), {.groups = 3, .exchange_count = 2}, 0);
   EXPECT_EQ(scene.mass(), before.mass());
   const auto x = scene.x.component(0);  // places 1 3 | 5 7 | 8 10
   EXPECT_EQ(std::vector<double>(x.begin(), x.end()), (std::vector<double>{0, 8, 2, 10, 4, 1, 6, 3, 5, 9, 7}));

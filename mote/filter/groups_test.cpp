@@ -172,9 +172,9 @@ TEST(GroupSelector, ExchangesAtTheMultiplesOnly) {
 TEST(GroupSelector, ExchangesWhenGroupWeightsDiverge) {
   // weights of the groups are about 1 4 9 16 25 36: (91)^2 / 2275 = 3.64 effective groups of 6
   const Cloud<double> cloud = sloping(60, 6);
-  const double effective = effective_groups(cloud.log_weights, Groups(60, 6));
+  const double effective = effective_groups(cloud.log_weights, *cloud.members);
   EXPECT_NEAR(effective, 3.64, 0.2);
-  EXPECT_NEAR(effective_groups(Cloud<double>(1, 60).log_weights, Groups(60, 6)), 6, 1e-12);
+  EXPECT_NEAR(effective_groups(Cloud<double>(1, 60).log_weights, *cloud.members), 6, 1e-12);
   GroupOptions groups = exchanging(Exchange::kSwap);
   for (const auto& [ratio, exchanges] : {std::pair{effective / 6 * 0.999, false}, {effective / 6 * 1.001, true}}) {
     groups.exchange_when = ratio;
@@ -204,7 +204,7 @@ TEST(GroupSelector, TradesAfterTheSelection) {
   const GroupOptions rna{.groups = 6, .resampling = GroupResampling::kNonProportional, .exchange_count = 2};
   GroupSelector<double>({}, rna).select(cloud, 0, Draws{1, 1});
   GroupSelector<double>({}, {.groups = 6}).select(local, 0, Draws{1, 1});
-  trade_evenly(local.x, local.log_weights, Groups(60, 6), rna, 1);
+  trade_evenly(local.x, local.log_weights, *local.members, rna, 1);
   EXPECT_TRUE(std::equal(cloud.x.component(0).begin(), cloud.x.component(0).end(), local.x.component(0).begin()));
   EXPECT_EQ(cloud.log_weights, local.log_weights);
 }

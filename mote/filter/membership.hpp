@@ -20,7 +20,7 @@ struct Letter {
 class Membership {
  public:
   /// All groups.
-  Membership(const Groups& groups) : Membership(groups, 0, groups.count()) {}  // NOLINT(google-explicit-constructor)
+  explicit Membership(const Groups& groups) : Membership(groups, 0, groups.count()) {}
   virtual ~Membership() = default;
 
   const Groups& groups() const { return groups_; }

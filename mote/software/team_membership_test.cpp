@@ -3,32 +3,16 @@
 #include <gtest/gtest.h>
 
 #include "mote/engine/checkpoint_laws.hpp"
+#include "mote/engine/drawn_recording.hpp"
 #include "mote/engine/run.hpp"
 #include "mote/engine/thread_teams.hpp"
 #include "mote/filter/sisr.hpp"
 #include "mote/model/bearings.hpp"
+#include "mote/model/local_level.hpp"
 #include "mote/model/ungm.hpp"
 
 namespace mote {
 namespace {
-
-/// Steps that the model draws itself; 3 has no observation, 5 is left out.
-template <class M>
-Recording recording_of(const M& model) {
-  Recording recording;
-  auto prior = Draws{7, 0}.block(Purpose::kTruth);
-  auto first = prior.particle(0);
-  auto x = model.template initial<double>(first);
-  for (Step t = 1; t <= 9; ++t) {
-    auto block = Draws{7, static_cast<std::uint32_t>(t)}.block(Purpose::kTruth);
-    auto draw = block.particle(0);
-    x = model.template next<double>(t, x, draw);
-    if (t == 5) continue;
-    recording.steps.push_back({t, {}});
-    if (t != 3) recording.steps.back().rows.push_back(model.template observe<double>(t, x, blank_row(model), draw));
-  }
-  return recording;
-}
 
 /// What a filter tells of every step; ranks that are asked for all particles add what they say.
 template <class M>
@@ -36,7 +20,7 @@ std::vector<EstimateRow> rows_of(const M& model, Filter& filter, const Plan& pla
   RunRequest request;
   request.states = model.states();
   request.sources = value_sources(model);
-  request.estimands.push_back(parse_estimand("q0.9(x)", request.sources, "test"));
+  request.estimands.push_back(parse_estimand("q0.9(" + model.states()[0].name + ")", request.sources, "test"));
   return run(filter, plan, recording, request).rows;
 }
 
@@ -48,7 +32,7 @@ void expect_the_same_on_teams(const M& model, Plan plan, const std::vector<std::
     return make_distributed<R>(model, plan.particles, plan.seed, plan.groups, plan.selection, plan.on_collapse,
                                std::move(members));
   };
-  const Recording recording = recording_of(model);
+  const Recording recording = drawn_recording(model, 9);
   const auto expected = rows_of(model, *made(nullptr), plan, recording);
   for (const std::size_t ranks : teams) {
     std::vector<std::vector<EstimateRow>> rows(ranks);
@@ -92,13 +76,27 @@ TEST(TeamMembership, TeamsChangeNoBitOfOtherSelections) {
   expect_the_same_on_teams<double>(Ungm<1>{}, plan, {2, 5});
 }
 
-// Observations that no particle of most groups explains, or of any.
+/// A level behind a wall, where nothing is possible, and in the third and sixth step anywhere.
+struct Walled : LocalLevel {
+  template <class S>
+  S log_likelihood(Step t, const State<S>& x, const Row<S>& row) const {
+    return t % 3 == 0 || x[0] > 800 ? S(-kInfinity) : LocalLevel::log_likelihood<S>(t, x, row);
+  }
+};
+
+// Most particles of a group are behind the wall, all of some groups, and now and then all of all.
 TEST(TeamMembership, TeamsChangeNoBitWhereGroupsCollapse) {
   for (const OnCollapse policy : {OnCollapse::kKeep, OnCollapse::kReset})
-    for (const double r : {1e-4, 1e-9}) {
-      Plan plan = plan_of({.groups = 6, .exchange = Exchange::kAppend}, 60);
+    for (const Exchange exchange : {Exchange::kNone, Exchange::kAppend, Exchange::kReplace}) {
+      Plan plan = plan_of({.groups = 6, .exchange = exchange}, 60);
       plan.on_collapse = policy;
-      expect_the_same_on_teams<double>(Ungm<1>{{.r = r}}, plan, {2, 6});
+      expect_the_same_on_teams<double>(Walled{}, plan, {2, 6});
+      const auto filter = make_distributed(Walled{}, plan.particles, plan.seed, plan.groups, {}, policy);
+      std::size_t collapses = 0;
+      for (const EstimateRow& row : rows_of(Walled{}, *filter, plan, drawn_recording(Walled{}, 9)))
+        collapses += row.report.collapsed ? 1 : 0;
+      EXPECT_GE(collapses, 3U);
+      EXPECT_LT(collapses, 8U);
     }
 }
 

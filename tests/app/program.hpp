@@ -26,6 +26,13 @@ inline constexpr bool kMemoryIsMoteOwn = false;  // the sanitizers' shadow is ma
 inline constexpr bool kMemoryIsMoteOwn = true;
 #endif
 
+/// Whether simulated clusters were built: SimGrid was there.
+#ifdef MOTE_SIMULATES
+inline constexpr bool kSimulates = true;
+#else
+inline constexpr bool kSimulates = false;
+#endif
+
 /// What a run of the program left.
 struct Ended {
   int code = -1;

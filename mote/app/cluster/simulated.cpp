@@ -67,7 +67,7 @@ std::span<std::byte> anywhere(std::size_t bytes) {
   return of_size;
 }
 
-double data_parallel(const Words& words, MessagingTeam& team) {
+double data_parallel(const Words& words, Team& team) {
   const ShadowCloud cloud{words.count("particles"),    words.count("dimensions"), words.count("angles"),
                           words.count("number-bytes"), words("variation"),        words.count("seed")};
   Shadow shadow(team, cloud, anywhere(Shadow::parcel_bytes(cloud, team.ranks())));
@@ -78,7 +78,7 @@ double data_parallel(const Words& words, MessagingTeam& team) {
 }
 
 /// The steps of RankedFilter: stages whose work is time alone, the verdict, what rank 0 selects, and the set.
-double stage_parallel(const Words& words, MessagingTeam& team) {
+double stage_parallel(const Words& words, Team& team) {
   const Cast cast{words.count("proposers"), words.count("weighers"), words.count("chains")};
   const bool chains = words("resamples") == 0;
   const std::size_t n = words.count("particles");

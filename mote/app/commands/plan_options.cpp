@@ -107,9 +107,8 @@ std::vector<OptionSpec> plan_options() {
        "carried = properly weighted; reset = every group counts alike after resampling (PPF)", groups},
       {"--engine", "NAME", "fastest",
        "simd (vectors and threads: sisr, imh, auxiliary), reference (all filters), the fastest of them that has the "
-       "filter; mpi (sisr on the processes of mpirun; with --proposers or --weighers sisr, imh, auxiliary, a process "
-       "for "
-       "each stage's worker and each chain); or pipeline (sisr, imh, auxiliary: proposing, weighing and "
+       "filter; mpi (sisr, imh, auxiliary, distributed on the processes of mpirun; with --proposers or --weighers a "
+       "process for each stage's worker and each chain); or pipeline (sisr, imh, auxiliary: proposing, weighing and "
        "chains side by side)",
        engine},
       {"--threads", "K", "",
@@ -185,8 +184,7 @@ std::vector<std::string> notes_on_unread(const Arguments& arguments, const Plan&
   if (!groups) return notes;
   const std::string where = "--group-resampling " + arguments.text("--group-resampling");
   const GroupResampling resampling = plan.groups.resampling;
-  note(resampling == GroupResampling::kGlobal || resampling == GroupResampling::kProportional,
-       also({"--exchange", "--group-weights"}), where + " selects over all groups");
+  note(plan.groups.joint(), also({"--exchange", "--group-weights"}), where + " selects over all groups");
   note(resampling == GroupResampling::kNonProportional, {"--exchange", "--group-weights"},
        where + " exchanges and carries weights by itself");
   note(resampling == GroupResampling::kChain, {"--resampler", "--selection-exponent"}, where + " runs a chain");

@@ -20,7 +20,7 @@
 #include "mote/app/files/text.hpp"
 #include "mote/app/terminal/progress.hpp"
 #include "mote/app/terminal/signals.hpp"
-#include "mote/engine/messages.hpp"
+#include "mote/engine/cast.hpp"
 
 namespace mote {
 namespace {
@@ -166,13 +166,11 @@ ExitCode run_in_team(const Arguments& arguments, Team& team) {
   together(team, [&] { prepare(run, arguments, &team, writes); });
   RunRecord record;
   try {
-    const bool kept = arguments.given("--checkpoint");
-    static const std::atomic<bool> kNever{false};
-    // without a checkpoint a signal just ends the process
-    TeamCheckpoint checkpoint(team, run.checkpoint ? &*run.checkpoint : nullptr, kept ? stop_flag() : kNever);
-    if (kept) {
-      run.request.checkpoint = &checkpoint;
-      run.request.stop = &checkpoint.stop();
+    std::optional<TeamCheckpoint> checkpoint;
+    if (arguments.given("--checkpoint")) {  // without one a signal just ends the process
+      checkpoint.emplace(team, run.checkpoint ? &*run.checkpoint : nullptr, stop_flag());
+      run.request.checkpoint = &*checkpoint;
+      run.request.stop = &checkpoint->stop();
     }
     // a proposal that the model does not have is refused, and a step collapses, on all ranks alike
     const auto filter = run.job.model->filter(run.plan, arguments.where());

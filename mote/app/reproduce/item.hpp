@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "mote/app/reproduce/resampling.hpp"
-#include "mote/engine/messages.hpp"
+#include "mote/engine/cast.hpp"
 
 namespace mote::reproduce {
 

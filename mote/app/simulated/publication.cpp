@@ -110,9 +110,10 @@ std::string summary_of(const Sweep& sweep) {
   const std::string opening = fmt::format("{} on {}, {}", sweep.model, sweep.platform.name, parallel(sweep.work));
   if (sweep.work.by_stages)
     return fmt::format(
-        "{}: {} proposers and {} weighers take {:.4g} ms for a step of {} particles, {:.4g} times as fast as the first "
-        "setting.",
-        opening, last.cast.proposers, last.cast.weighers, last.seconds_per_step * 1e3, last.particles, last.speedup);
+        "{}: {} proposer{} and {} weigher{} take {:.4g} ms for a step of {} particles, {:.4g} times as fast as the "
+        "first setting.",
+        opening, last.cast.proposers, last.cast.proposers == 1 ? "" : "s", last.cast.weighers,
+        last.cast.weighers == 1 ? "" : "s", last.seconds_per_step * 1e3, last.particles, last.speedup);
   return fmt::format("{}: {} ranks reach {:.4g} times one, {:.1f} % of what they could.", opening, last.ranks,
                      last.speedup, last.efficiency * 100);
 }
@@ -180,14 +181,14 @@ report::Page sweep_page(const Sweep& sweep) {
   const Workload& work = sweep.work;
   report::Page page{
       .title = "A simulated cluster: " + sweep.platform.name, .summary = summary_of(sweep), .command = sweep.command};
-  page.facts = {{"platform", sweep.platform.meaning},
-                {"times", times_of(work) + ", " + sweep.where_from},
-                {"particles", fmt::format("{} {}", work.particles, work.weak && !work.by_stages ? "a rank" : "in all")},
-                {"steps", std::to_string(work.steps)}};
+  page.facts = {{"Platform", sweep.platform.meaning},
+                {"Times", times_of(work) + ", " + sweep.where_from},
+                {"Particles", fmt::format("{} {}", work.particles, work.weak && !work.by_stages ? "a rank" : "in all")},
+                {"Steps", std::to_string(work.steps)}};
   if (!work.by_stages) page.facts.push_back({"ESS", fmt::format("{:.3g} N", work.ess_share)});
-  if (work.step_bytes > 0) page.facts.push_back({"bytes to all in a step", std::to_string(work.step_bytes)});
+  if (work.step_bytes > 0) page.facts.push_back({"Bytes to all in a step", std::to_string(work.step_bytes)});
   if (sweep.platform.hosts > 0)
-    page.facts.push_back({"network", fmt::format("{:.4g} us, {:.4g} MB/s", sweep.platform.latency_s * 1e6,
+    page.facts.push_back({"Network", fmt::format("{:.4g} us, {:.4g} MB/s", sweep.platform.latency_s * 1e6,
                                                  sweep.platform.bandwidth * 1e-6)});
   page.charts = work.by_stages ? stage_charts(sweep) : share_charts(sweep);
   report::Table table{.title = "Runs", .columns = columns(work)};

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "mote/app/simulated/platform.hpp"
+#include "mote/engine/cast.hpp"
 #include "mote/engine/latency.hpp"
-#include "mote/engine/messages.hpp"
 
 namespace mote::simulated {
 

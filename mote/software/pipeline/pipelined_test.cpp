@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "mote/engine/checkpoint_laws.hpp"
+#include "mote/engine/drawn_recording.hpp"
 #include "mote/model/bearings.hpp"
 #include "mote/model/doa.hpp"
 #include "mote/model/linear_gaussian.hpp"
@@ -11,28 +12,6 @@
 
 namespace mote {
 namespace {
-
-/// What a model draws itself, with all that a recording may lack or have twice: t = 2 without a row, no t = 4, two rows
-/// at t = 5.
-template <class M>
-Recording drawn(const M& model) {
-  Recording recording;
-  auto prior = Draws{7, 0}.block(Purpose::kTruth);
-  auto first = prior.particle(0);
-  auto x = model.template initial<double>(first);
-  for (Step t = 1; t <= 6; ++t) {
-    auto block = Draws{7, static_cast<std::uint32_t>(t)}.block(Purpose::kTruth);
-    auto draw = block.particle(0);
-    x = model.template next<double>(t, x, draw);
-    const Row<double> row = model.template observe<double>(t, x, blank_row(model), draw);
-    const Row<double> again = model.template observe<double>(t, x, blank_row(model), draw);
-    if (t == 4) continue;
-    recording.steps.push_back({t, {}});
-    if (t != 2) recording.steps.back().rows.push_back(row);
-    if (t == 5) recording.steps.back().rows.push_back(again);
-  }
-  return recording;
-}
 
 template <class M>
 RunRequest request_for(const M& model) {
@@ -86,7 +65,7 @@ std::unique_ptr<Filter> reference_filter(const M& model, const Plan& plan) {
 template <class M>
 void expect_the_reference(const M& model, const Plan& plan, const std::string& what,
                           const std::vector<PipelineSize>& sizes = kSizes) {
-  const Recording recording = drawn(model);
+  const Recording recording = drawn_recording(model, 6);
   const RunRequest request = request_for(model);
   const auto reference = reference_filter(model, plan);
   const Told expected = told(*reference, plan, recording, request);
@@ -162,8 +141,8 @@ TEST(PipelinedFilter, TwinAnotherSeedIsCaught) {
   const auto reference = reference_filter(model, plan);
   plan.seed = 4;
   const auto pipelined = make_pipeline_filter(model, plan, "test");
-  EXPECT_NE(difference(told(*pipelined, plan, drawn(model), request_for(model)),
-                       told(*reference, plan, drawn(model), request_for(model))),
+  EXPECT_NE(difference(told(*pipelined, plan, drawn_recording(model, 6), request_for(model)),
+                       told(*reference, plan, drawn_recording(model, 6), request_for(model))),
             "");
 }
 
@@ -208,7 +187,7 @@ TEST(PipelinedFilter, IsTheReferenceForFewParticles) {
 
 /// The local level, seen at t = 3 where no particle can be.
 Recording hopeless(const LocalLevel& model, double where) {
-  Recording recording = drawn(model);
+  Recording recording = drawn_recording(model, 6);
   for (ObservedStep& step : recording.steps)
     if (step.t == 3) step.rows.front().values.front() = where;
   return recording;
@@ -254,7 +233,7 @@ TEST(PipelinedFilter, IsResumedBitByBit) {
       Plan plan = plan_of(filter, 300, precision);
       plan.chain.chains = 2;
       const auto make = [&] { return make_pipeline_filter(model, plan, "test", kSizes[3]); };
-      EXPECT_EQ(laws::broken_promise(make, plan, drawn(model), request_for(model)), "");
+      EXPECT_EQ(laws::broken_promise(make, plan, drawn_recording(model, 6), request_for(model)), "");
     }
 }
 
@@ -266,13 +245,13 @@ TEST(PipelinedFilter, LeavesTheRecordOfItsStages) {
   plan.threads = 2;
   plan.chain.chains = 4;
   const auto pipelined = make_pipeline_filter(model, plan, "test");
-  const RunRecord record = run(*pipelined, plan, drawn(model), request_for(model));
+  const RunRecord record = run(*pipelined, plan, drawn_recording(model, 6), request_for(model));
   ASSERT_TRUE(record.stages);
   EXPECT_EQ(record.stages->stages[0].workers.size(), 2U);
   EXPECT_EQ(record.stages->stages[1].workers.size(), 3U);
   EXPECT_EQ(record.stages->stages[2].workers.size(), 4U);
   const auto reference = reference_filter(model, plan);
-  EXPECT_FALSE(run(*reference, plan, drawn(model), request_for(model)).stages);
+  EXPECT_FALSE(run(*reference, plan, drawn_recording(model, 6), request_for(model)).stages);
 }
 
 TEST(PipelinedFilter, RefusesAProposalThatTheModelDoesNotHave) {

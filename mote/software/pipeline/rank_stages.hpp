@@ -3,7 +3,8 @@
 ///
 ///   proposers -> [messages of a block] -> weighers -> [rank 0: all blocks; other chains: those of theirs]
 
-#include "mote/engine/messages.hpp"
+#include "mote/engine/cast.hpp"
+#include "mote/engine/team.hpp"
 #include "mote/filter/stages.hpp"
 
 namespace mote {
@@ -22,7 +23,7 @@ std::size_t message_block(std::size_t count, const Cast& cast);
 class RankStages final : public StageRunner {
  public:
   /// block: particles in a message, 0 = message_block().
-  RankStages(MessagingTeam& team, const Cast& cast, std::size_t block = 0) : team_(&team), cast_(cast), block_(block) {}
+  RankStages(Team& team, const Cast& cast, std::size_t block = 0) : team_(&team), cast_(cast), block_(block) {}
 
   void run(const Stages& stages) override;
   std::size_t proposers() const override { return 1; }  // on this rank
@@ -49,7 +50,7 @@ class RankStages final : public StageRunner {
   template <class Do>
   void receive_each(const Stages& stages, const std::vector<Visit>& visits, const Do& work);
 
-  MessagingTeam* team_;
+  Team* team_;
   Cast cast_;
   std::size_t block_;
   std::vector<Block> blocks_;  // of the run, in order

@@ -18,7 +18,7 @@ class RankedFilter final : public Filter {
  public:
   /// make(StageRunner&) gives the filter.
   template <class Make>
-  RankedFilter(MessagingTeam& team, const Cast& cast, const Make& make)
+  RankedFilter(Team& team, const Cast& cast, const Make& make)
       : team_(&team), stages_(team, cast), filter_(make(stages_)) {
     Archive counts = Archive::to([&](const void*, std::size_t count) { kept_.resize(kept_.size() + count); });
     filter_->keep(counts);
@@ -59,7 +59,7 @@ class RankedFilter final : public Filter {
  private:
   bool decides() const { return team_->rank() == 0; }
 
-  MessagingTeam* team_;
+  Team* team_;
   RankStages stages_;
   std::unique_ptr<Filter> filter_;
   std::vector<std::byte> kept_;  // what the next step starts from
@@ -71,9 +71,8 @@ class RankedFilter final : public Filter {
 /// error   Refusal (kWrongUse) when the model has no proposal of that name, or its weights do not exist
 template <Model M>
 std::unique_ptr<Filter> make_ranked_filter(const M& model, const Plan& plan, const std::string& where) {
-  auto& team = dynamic_cast<MessagingTeam&>(*plan.team);
   return with_proposal(model, plan, where, [&]<class G>(std::type_identity<G>) {
-    return std::make_unique<RankedFilter>(team, cast_of(plan), [&](StageRunner& runner) {
+    return std::make_unique<RankedFilter>(*plan.team, cast_of(plan), [&](StageRunner& runner) {
       return plan.precision == Precision::kFloat ? pipelined::make<float, G>(model, plan, runner)
                                                  : pipelined::make<double, G>(model, plan, runner);
     });

@@ -4,6 +4,7 @@
 
 #include "mote/base/refusal.hpp"
 #include "mote/engine/checkpoint_laws.hpp"
+#include "mote/engine/drawn_recording.hpp"
 #include "mote/engine/run.hpp"
 #include "mote/engine/thread_teams.hpp"
 #include "mote/model/bearings.hpp"
@@ -14,23 +15,6 @@
 namespace mote {
 namespace {
 
-/// What a model draws itself: t = 2 without a row, no t = 4, two rows at t = 5.
-template <class M>
-Recording drawn(const M& model) {
-  Recording recording;
-  auto block = Draws{7, 1}.block(Purpose::kTruth);
-  auto draw = block.particle(0);
-  auto x = model.template initial<double>(draw);
-  for (Step t = 1; t <= 6; ++t) {
-    x = model.template next<double>(t, x, draw);
-    const Row<double> row = model.template observe<double>(t, x, blank_row(model), draw);
-    if (t == 4) continue;
-    recording.steps.push_back({t, {}});
-    for (int copies = t == 2 ? 0 : t == 5 ? 2 : 1; copies > 0; --copies) recording.steps.back().rows.push_back(row);
-  }
-  return recording;
-}
-
 template <class M>
 std::vector<EstimateRow> on_team(const M& model, Plan plan, const Cast& cast, const Recording& recording) {
   plan.engine = Engine::kMpi;
@@ -40,7 +24,7 @@ std::vector<EstimateRow> on_team(const M& model, Plan plan, const Cast& cast, co
   request.states = model.states();
   std::vector<EstimateRow> rows;
   ThreadTeams teams(cast.ranks());
-  teams.run([&](MessagingTeam& team) {
+  teams.run([&](Team& team) {
     Plan mine = plan;
     mine.team = &team;
     check(mine, "test");
@@ -76,7 +60,7 @@ Plan plan_of(FilterKind filter, std::size_t particles, std::size_t chains = 1) {
 
 template <class M>
 void expect_the_reference(const M& model, const Plan& plan, const std::vector<Cast>& casts) {
-  const Recording recording = drawn(model);
+  const Recording recording = drawn_recording(model, 6);
   const auto expected = by_reference(model, plan, recording);
   for (const Cast& cast : casts)
     EXPECT_TRUE(same(on_team(model, plan, cast, recording), expected))
@@ -112,14 +96,14 @@ TEST(RankedFilters, GiveTheBitsOfTheReference) {
   carried.selection.exponent = 0.7;
   expect_the_reference(LocalLevel{}, carried, one);
   Plan other = plan_of(FilterKind::kImh, 50);
-  const Recording recording = drawn(Ungm<1>{});
+  const Recording recording = drawn_recording(Ungm<1>{}, 6);
   const auto expected = by_reference(Ungm<1>{}, other, recording);
   other.seed = 4;
   EXPECT_FALSE(same(on_team(Ungm<1>{}, other, {1, 1, 1}, recording), expected)) << "twin";
 }
 
 TEST(RankedFilters, CollapseAsTheReference) {
-  Recording far = drawn(LocalLevel{});
+  Recording far = drawn_recording(LocalLevel{}, 6);
   far.steps[2].rows[0].values[0] = 1e300;
   for (const FilterKind filter : {FilterKind::kSisr, FilterKind::kImh})
     for (const OnCollapse what : {OnCollapse::kKeep, OnCollapse::kReset}) {
@@ -134,7 +118,7 @@ TEST(RankedFilters, CollapseAsTheReference) {
   const auto stopping = [&] {
     ThreadTeams teams(3);
     std::atomic<int> stopped = 0;
-    teams.run([&](MessagingTeam& team) {
+    teams.run([&](Team& team) {
       Plan mine = plan;
       mine.engine = Engine::kMpi;
       mine.proposers = 1;
@@ -159,7 +143,7 @@ TEST(RankedFilters, RefuseATeamOfAnotherSize) {
     plan.proposers = 2;
     std::string said;
     ThreadTeams teams(3);
-    teams.run([&](MessagingTeam& team) {
+    teams.run([&](Team& team) {
       Plan mine = plan;
       mine.team = &team;
       try {

@@ -176,9 +176,7 @@ class VectorMetropolisFilter final : public Filter {
   }
   void complete_what_was_read() {
     if (complete_) return;
-    std::vector<std::size_t> begins(share_.ranks + 1, layout_.kept);
-    begins[0] = 0;
-    complete(set_, begins);
+    for (std::size_t d = 0; d < set_.dimensions(); ++d) team_->share(std::as_writable_bytes(set_.component(d)));
     complete_ = true;
   }
   /// The sum of a count over the ranks.

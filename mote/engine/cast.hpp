@@ -1,23 +1,12 @@
 #pragma once
-/// Messages: ranks of a team that tell each other one thing after the other, and who of them does what in a step.
+/// Cast: who of a team's ranks does what in a step, where they share its stages.
+
+#include <algorithm>
+#include <cstddef>
 
 #include "mote/engine/plan.hpp"
-#include "mote/engine/team.hpp"
 
 namespace mote {
-
-/// A team whose ranks also send single messages. Those between two ranks arrive in the order in which they were sent.
-class MessagingTeam : public Team {
- public:
-  /// Sends a copy of the bytes; may return before they arrive.
-  virtual void send(std::size_t to, std::span<const std::byte> bytes) = 0;
-  /// Makes room for the next message of a rank, of this length; await() says when it is there.
-  virtual void expect(std::size_t from, std::span<std::byte> bytes) = 0;
-  /// Waits for the oldest message that was made room for.
-  virtual void await() = 0;
-  /// Hands rank 0's bytes to all; they all call it.
-  virtual void share(std::span<std::byte> bytes) = 0;
-};
 
 /// Who does what: ranks 0 .. P-1 run the chains, rank 0 all that a step does once besides; then come the proposers,
 /// then the weighers.
