@@ -8,4 +8,4 @@ configure_package_config_file(cmake/moteConfig.cmake.in ${PROJECT_BINARY_DIR}/mo
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/moteConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/moteConfig.cmake ${PROJECT_BINARY_DIR}/moteConfigVersion.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/mote)
-install(DIRECTORY papers DESTINATION ${CMAKE_INSTALL_DATADIR}/mote)
+install(DIRECTORY papers data/platforms DESTINATION ${CMAKE_INSTALL_DATADIR}/mote)

@@ -1,12 +1,9 @@
-// `mote simulate-cluster`: simulated times against laws worked by hand, and its messages against those of the filter.
+// `mote simulate-cluster`: simulated times against laws worked by hand.
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "mote/app/catalogue/scene.hpp"
-#include "mote/cluster/shadow.hpp"
-#include "mote/engine/run.hpp"
-#include "mote/engine/thread_teams.hpp"
+#include "mote/app/simulated/platform.hpp"
 #include "tests/app/program.hpp"
 
 namespace mote::testing {
@@ -18,12 +15,15 @@ class SimulatedCluster : public ::testing::Test {
     if (!kSimulates) GTEST_SKIP() << "built without SimGrid";
   }
 
-  nlohmann::json runs(const std::string& words) const {
+  nlohmann::json sweep(const std::string& words) const {
     const Ended ended = scratch_.shell("mote simulate-cluster " + words + " --json s.json");
     EXPECT_EQ(ended.code, 0) << ended.err;
-    return nlohmann::json::parse(scratch_.read("s.json")).at("runs");
+    return nlohmann::json::parse(scratch_.read("s.json"));
   }
+  nlohmann::json runs(const std::string& words) const { return sweep(words).at("runs"); }
   static double seconds(const nlohmann::json& run) { return run.at("seconds_per_step").get<double>(); }
+
+  static double sent_bytes(const nlohmann::json& run) { return run.at("bytes_per_step").get<double>(); }
 
   Scratch scratch_;
 };
@@ -62,6 +62,86 @@ TEST_F(SimulatedCluster, WaitsForItsMessages) {
   EXPECT_GT(strong[1].at("speedup").get<double>(), 7);
 }
 
+// claim    groups on cores of a ring send their neighbours what they exchange, and no more
+// referee  K letters of M particles, a state of 8 bytes and a weight of 8, over one hop of 10 ns at 400 MB/s
+TEST_F(SimulatedCluster, ExchangesAlongTheRing) {
+  const std::string words =
+      "--filter distributed --platform ring:16 --ranks 4,16 -n 1024 --tp 1e-6 --ess 0.4 --steps 4 --exchange swap";
+  const auto two = sweep(words + " --exchange-count 2");
+  const auto& none = two.at("beside")[0];
+  EXPECT_EQ(none.at("name"), "no exchange");
+  EXPECT_EQ(two.at("beside")[1].at("filter"), "sisr");
+  for (const std::size_t k : {1, 2}) {
+    const double cores = two.at("runs")[k].at("ranks").get<double>();
+    EXPECT_NEAR(sent_bytes(two.at("runs")[k]) - sent_bytes(none.at("runs")[k]), cores * 2 * 16, 1e-3) << cores;
+    const double exchange = seconds(two.at("runs")[k]) - seconds(none.at("runs")[k]);
+    EXPECT_GT(exchange, 0.9 * (10e-9 + 32 / 400e6)) << cores;
+    EXPECT_LT(exchange, 2e-6) << "a letter waits for its sender, too, which may come late from the sums before";
+    EXPECT_EQ(two.at("runs")[k].at("groups"), cores);
+    EXPECT_LT(sent_bytes(two.at("runs")[k]), sent_bytes(two.at("beside")[1].at("runs")[k])) << "sums of all weights";
+  }
+  EXPECT_EQ(two.at("beside")[1].at("runs").size(), 3U);
+  const auto both = runs(words + " --topology bidirectional --exchange-every 2")[2];
+  EXPECT_NEAR(sent_bytes(both) - sent_bytes(none.at("runs")[2]), 16 * 2 * 16 / 2.0, 1e-3) << "two of four steps";
+}
+
+// claim    several groups on a core keep between them what they exchange
+TEST_F(SimulatedCluster, KeepsGroupsTogether) {
+  const std::string words =
+      "--strong --filter distributed --platform ring:4 --ranks 4 -n 4096 --groups 16 --tp 1e-6 --ess 0.4 --steps 2";
+  const auto some = sweep(words + " --exchange append");
+  const auto last = [](const nlohmann::json& list) { return list.back(); };
+  EXPECT_NEAR(sent_bytes(last(some.at("runs"))) - sent_bytes(last(some.at("beside")[0].at("runs"))), 4 * 16, 1e-3)
+      << "the last of a core's four groups sends its letter over a hop";
+  const Ended table = scratch_.shell("mote simulate-cluster " + words + " --exchange append --report r.html");
+  EXPECT_NE(table.out.find("append 1 on ring\n"), std::string::npos) << table.out;
+  EXPECT_NE(table.out.find("global resampling (sisr)\n"), std::string::npos) << table.out;
+  EXPECT_NE(scratch_.read("r.html").find("Bytes sent"), std::string::npos);
+}
+
+// claim    ranks with chains hand all that these keep to all
+// referee  an allgather of 4096 numbers: every rank takes in three quarters of them at 12.5 MB/s
+TEST_F(SimulatedCluster, HandsOnWhatChainsKeep) {
+  const std::string words = "--strong --platform red --ranks 4 -n 4096 --steps 2 --tp 1e-6 --filter ";
+  const auto imh = runs(words + "imh --chains 8").back();
+  const double waits = seconds(imh) - 1024e-6 - 3 * 1024 * 8 / 12.5e6;
+  EXPECT_GT(waits, 8 * 2 * 70e-6) << "the others are for sums: 2 rounds each";
+  EXPECT_LT(waits, 12 * 3 * 70e-6);
+  EXPECT_NEAR(sent_bytes(imh), 4 * 3 * 1024 * 8, 0.1 * 4 * 3 * 1024 * 8);
+  EXPECT_EQ(runs(words + "auxiliary --chains 8").back(), imh) << "pairs of state and parent travel alike";
+  const auto weighted = runs(words + "imh --chains 8 --chain-start weighted").back();
+  EXPECT_NEAR(sent_bytes(weighted), 2 * sent_bytes(imh), 0.1 * sent_bytes(imh)) << "all weights to all";
+}
+
+// claim    a host that is slower takes so many times what was measured
+TEST_F(SimulatedCluster, SlowsDownWhatWasMeasured) {
+  const auto json = sweep("--filter imh --stage-parallel --platform ideal -n 840 --slower 1000 --steps 2");
+  EXPECT_GT(json.at("tp").get<double>(), 1e-6) << "no core takes a nanosecond for a normal number and a cosine";
+  EXPECT_LT(json.at("tp").get<double>(), 1e-2);
+  EXPECT_EQ(json.at("times"), "measured on one core of this machine, times 1000");
+}
+
+// claim    platforms are what their files in data/platforms say
+TEST(Platforms, AreReadFromTheirFiles) {
+  const simulated::Platform red = simulated::platform_from("red", "test");
+  EXPECT_EQ(red.hosts, 16U);
+  EXPECT_DOUBLE_EQ(red.link_latency_s, 35e-6);
+  EXPECT_DOUBLE_EQ(red.bandwidth, 12.5e6);
+  EXPECT_FALSE(red.ring);
+  const simulated::Platform ring = simulated::platform_from("ring:5", "test");
+  EXPECT_EQ(ring.hosts, 5U);
+  EXPECT_DOUBLE_EQ(ring.link_latency_s, 10e-9);
+  EXPECT_TRUE(ring.ring);
+  EXPECT_NE(ring.xml.find("radical=\"0-4\""), std::string::npos);
+  EXPECT_NE(ring.xml.find("topo_parameters=\"5\""), std::string::npos);
+  EXPECT_EQ(ring.xml.find('@'), std::string::npos) << "no placeholder is left";
+  EXPECT_EQ(simulated::host_list(ring), "host0\nhost1\nhost2\nhost3\nhost4\n");
+  EXPECT_EQ(simulated::platform_from("modern", "test").hosts, 1024U);
+  EXPECT_DOUBLE_EQ(simulated::platform_from("modern", "test").bandwidth, 12.5e9);
+  EXPECT_EQ(simulated::platform_from("ideal", "test").link_latency_s, 0);
+  EXPECT_EQ(simulated::platform_from("blue", "test").hosts, 12U);
+}
+
 TEST_F(SimulatedCluster, TakesAPlatformFile) {
   scratch_.write(
       "two.xml",
@@ -91,8 +171,22 @@ TEST_F(SimulatedCluster, RefusesInSentences) {
            {"--strong -n 2048 --ranks 3", 2, "at most 2 for 2048 particles"},
            {"--ranks 0", 2, "--ranks: expected integers from 1 to"},
            {"--weak --strong", 2, "--weak: expected it, or --strong, got both"},
-           {"--filter imh", 2,
-            "--filter: expected sisr, whose particles ranks can share, got imh. Pass --stage-parallel."},
+           {"--filter imh --ess 0.4", 2, "--ess: expected --filter sisr or distributed"},
+           {"--filter imh --chains 3 --ranks 4", 2, "--ranks: expected at most 3, a chain each, got 4"},
+           {"--filter imh -n 300000000", 2, "--particles: expected an integer from 1 to 268435456"},
+           {"--filter auxiliary --proposal observation", 2, "--proposal: expected prior"},
+           {"--stage-parallel --filter imh --chain-start weighted", 2, "--chain-start: expected no --chain-start"},
+           {"--stage-parallel --filter distributed", 2,
+            "--filter: expected sisr, imh or auxiliary beside --stage-parallel, got distributed"},
+           {"--groups 4", 2, "--groups: expected --filter distributed, got --filter sisr"},
+           {"--exchange swap", 2, "--exchange: expected --filter distributed, got --filter sisr"},
+           {"--filter distributed --exchange nope", 2, "--exchange: expected one of none, append, replace, swap"},
+           {"--filter distributed --groups 2 -n 64 --ranks 4", 2, "--ranks: expected at most 2, a group each, got 4"},
+           {"--filter distributed --exchange swap --exchange-count 9 -n 8 --ranks 4", 2,
+            "--exchange-count: expected an integer from 1 to 8"},
+           {"--filter distributed --exchange append --topology hypercube -n 64 --ranks 3", 2,
+            "--topology hypercube: expected a power of two"},
+           {"--slower 2", 2, "--slower: expected no --slower beside --tp"},
            {"--weighers 2", 2, "--weighers: expected no --weighers beside --data-parallel"},
            {"--stage-parallel --ranks 3", 2, "--ranks: expected no --ranks beside --stage-parallel"},
            {"--stage-parallel --chains 2", 2, "--chains: expected --filter imh or auxiliary"}}) {
@@ -103,94 +197,6 @@ TEST_F(SimulatedCluster, RefusesInSentences) {
   const Ended ended = scratch_.shell("PATH=/nowhere; mote simulate-cluster");
   EXPECT_EQ(ended.code, 5);
   EXPECT_NE(ended.err.find("smpirun: expected SimGrid's smpirun in the PATH"), std::string::npos) << ended.err;
-}
-
-/// A team that notes what it is asked for.
-class NotingTeam final : public Team {
- public:
-  NotingTeam(Team& team, std::vector<std::string>& notes) : team_(&team), notes_(&notes) {}
-  std::size_t rank() const override { return team_->rank(); }
-  std::size_t ranks() const override { return team_->ranks(); }
-  void largest(std::span<double> numbers) override {
-    note("largest of", numbers.size());
-    team_->largest(numbers);
-  }
-  void add(std::span<ExactSum> sums) override {
-    note("add", sums.size());
-    team_->add(sums);
-  }
-  ExactSum before(const ExactSum& mine) override {
-    note("before", 1);
-    return team_->before(mine);
-  }
-  std::vector<std::uint32_t> gather(std::uint32_t mine) override {
-    note("gather", 1);
-    return team_->gather(mine);
-  }
-  void exchange(std::span<const ParcelOut> out, std::span<const ParcelIn> in) override {
-    std::size_t rest = 0;  // parcels come by components
-    for (const ParcelOut& parcel : out) rest += parcel.bytes.size() % 8;
-    note("exchange", rest);
-    team_->exchange(out, in);
-  }
-  void complete(std::span<std::byte> column, std::span<const std::size_t> begins) override {
-    note("complete", column.size());
-    team_->complete(column, begins);
-  }
-  void share(std::span<std::byte> bytes) override {
-    note("share", bytes.size());
-    team_->share(bytes);
-  }
-  void send(std::size_t to, std::span<const std::byte> bytes) override {
-    note("send", bytes.size());
-    team_->send(to, bytes);
-  }
-  void expect(std::size_t from, std::span<std::byte> bytes) override {
-    note("expect", bytes.size());
-    team_->expect(from, bytes);
-  }
-  void await() override {
-    note("await", 1);
-    team_->await();
-  }
-
- private:
-  void note(const std::string& what, std::size_t count) { notes_->push_back(what + " " + std::to_string(count)); }
-  Team* team_;
-  std::vector<std::string>* notes_;
-};
-
-// claim    the shadow asks of a team what the filter asks, in its order
-// referee  the filter of --engine mpi
-TEST(Shadow, AsksWhatTheFilterAsks) {
-  const auto model = find_model("bearings", "test").make(Settings("test", {}), {});
-  const Recording recording = simulated_scene(*model, 5, 1).recording;
-  std::vector<std::string> of_filter;
-  std::vector<std::string> of_shadow;
-  ThreadTeams(3).run([&](Team& team) {
-    std::vector<std::string> notes;
-    NotingTeam noting(team, notes);
-    Plan plan;
-    plan.particles = 9000;
-    plan.engine = Engine::kMpi;
-    plan.team = &noting;
-    RunRequest request;
-    request.states = model->states();
-    const auto filter = model->filter(plan, "test");
-    run(*filter, plan, recording, request);
-    if (team.rank() == 1) of_filter = notes;
-  });
-  ThreadTeams(3).run([&](Team& team) {
-    std::vector<std::string> notes;
-    NotingTeam noting(team, notes);
-    const ShadowCloud cloud{.particles = 9000, .dimensions = 4};
-    std::vector<std::byte> anywhere(Shadow::parcel_bytes(cloud, 3));
-    Shadow shadow(noting, cloud, anywhere);
-    for (Step t = 1; t <= 5; ++t) shadow.step(t, [] {});
-    if (team.rank() == 1) of_shadow = notes;
-  });
-  EXPECT_EQ(of_shadow, of_filter);
-  EXPECT_GT(of_shadow.size(), 40U);
 }
 
 }  // namespace

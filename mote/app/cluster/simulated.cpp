@@ -1,17 +1,21 @@
 // A rank of a simulated cluster. SimGrid's smpirun starts it; what the ranks do besides telling each other takes
-// simulated time alone. Rank 0 says how long a step took, as JSON.
+// simulated time alone. Rank 0 says how long a step took and what all ranks sent in it, as JSON.
 //
-//   mote-smpi data-parallel|stage-parallel KEY=VALUE...
+//   mote-smpi particles|chains|groups|stages KEY=VALUE...
 
 #include <cstdio>
 #include <cstdlib>
 #include <map>
+#include <numeric>
 #include <string>
 #include <vector>
 
 #include <simgrid/host.h>
 #include <smpi/smpi.h>
 
+#include "mote/cluster/chain_shadow.hpp"
+#include "mote/cluster/counting_team.hpp"
+#include "mote/cluster/group_shadow.hpp"
 #include "mote/cluster/mpi_team.hpp"
 #include "mote/cluster/shadow.hpp"
 #include "mote/filter/filter.hpp"
@@ -49,13 +53,32 @@ double now(Team& team) {
   return time;
 }
 
-/// Seconds of a step, the first left out.
+double sum_over_ranks(Team& team, double mine) {
+  std::vector<double> all(team.ranks());
+  std::vector<std::size_t> begins(team.ranks() + 1);
+  std::iota(begins.begin(), begins.end(), std::size_t{0});
+  all[team.rank()] = mine;
+  team.complete(std::as_writable_bytes(std::span(all)), begins);
+  return std::accumulate(all.begin(), all.end(), 0.0);
+}
+
+/// What a step takes, and what all ranks send in it.
+struct Taken {
+  double seconds, messages, bytes;
+};
+
+/// Of a step, the first left out.
 template <class Do>
-double seconds_a_step(Team& team, std::size_t steps, const Do& step) {
+Taken a_step(CountingTeam& team, std::size_t steps, const Do& step) {
   step(1);
   const double start = now(team);
+  const Traffic sent = team.traffic();
   for (std::size_t t = 2; t <= steps + 1; ++t) step(static_cast<Step>(t));
-  return (now(team) - start) / static_cast<double>(steps);
+  const Traffic all = team.traffic();
+  const double seconds = now(team) - start;
+  const auto count = static_cast<double>(steps);
+  return {seconds / count, sum_over_ranks(team, all.messages - sent.messages) / count,
+          sum_over_ranks(team, all.bytes - sent.bytes) / count};
 }
 
 /// Memory that all ranks send from and receive to: they are threads of one process.
@@ -67,20 +90,45 @@ std::span<std::byte> anywhere(std::size_t bytes) {
   return of_size;
 }
 
-double data_parallel(const Words& words, Team& team) {
+Taken particles(const Words& words, CountingTeam& team) {
   const ShadowCloud cloud{words.count("particles"),    words.count("dimensions"), words.count("angles"),
                           words.count("number-bytes"), words("variation"),        words.count("seed")};
   Shadow shadow(team, cloud, anywhere(Shadow::parcel_bytes(cloud, team.ranks())));
-  const double seconds = words("seconds");  // a particle
-  return seconds_a_step(team, words.count("steps"), [&](Step t) {
-    shadow.step(t, [&] { pass(seconds * static_cast<double>(shadow.particles())); });
+  const double seconds = words("tp") + words("tw") + words("td");
+  return a_step(team, words.count("steps"),
+                [&](Step t) { shadow.step(t, [&] { pass(seconds * static_cast<double>(shadow.particles())); }); });
+}
+
+Taken chains(const Words& words, CountingTeam& team) {
+  const ChainCloud cloud{words.count("particles"),    words.count("dimensions"), words.count("angles"),
+                         words.count("number-bytes"), words.count("chains"),     words.count("weighted-start") != 0};
+  ChainShadow shadow(team, cloud, anywhere(ChainShadow::column_bytes(cloud)));
+  return a_step(team, words.count("steps"), [&](Step) {
+    shadow.step([&] { pass((words("tp") + words("tw")) * static_cast<double>(shadow.made())); },
+                [&] { pass(words("td") * static_cast<double>(shadow.visited())); });
+  });
+}
+
+template <class R>
+Taken groups(const Words& words, CountingTeam& team) {
+  GroupCloud cloud{words.count("particles"), words.count("dimensions"), {}};
+  cloud.groups.groups = words.count("groups");
+  cloud.groups.exchange = static_cast<Exchange>(words.count("exchange"));
+  cloud.groups.exchange_count = words.count("exchange-count");
+  cloud.groups.topology = static_cast<Topology>(words.count("topology"));
+  cloud.groups.exchange_every = words.count("exchange-every");
+  GroupShadow<R> shadow(team, cloud);
+  return a_step(team, words.count("steps"), [&](Step t) {
+    shadow.step(
+        t, [&] { pass((words("tp") + words("tw")) * static_cast<double>(shadow.particles())); },
+        [&] { pass(words("td") * static_cast<double>(shadow.resampled(t))); });
   });
 }
 
 /// The steps of RankedFilter: stages whose work is time alone, the verdict, what rank 0 selects, and the set.
-double stage_parallel(const Words& words, Team& team) {
+Taken stages(const Words& words, CountingTeam& team) {
   const Cast cast{words.count("proposers"), words.count("weighers"), words.count("chains")};
-  const bool chains = words("resamples") == 0;
+  const bool has_chains = words("resamples") == 0;
   const std::size_t n = words.count("particles");
   const std::size_t bytes = words.count("particle-bytes");  // of a message
   const ChainLayout layout{n, n, cast.chains, 0};
@@ -89,34 +137,42 @@ double stage_parallel(const Words& words, Team& team) {
     return [seconds = words(time)](Stretch stretch) { pass(seconds * static_cast<double>(stretch.size())); };
   };
   const auto proposing = passing("tp");
-  Stages stages{{0, n},        {{{0, n}}}, [&](std::size_t, std::size_t, Stretch stretch) { proposing(stretch); },
-                passing("tw"), {},         [&](Stretch stretch) { return in_memory(stretch.size() * bytes); }};
-  if (chains) {
-    stages.lines = lines_of(layout, cast.chains);
-    stages.take = passing("td");
-    stages.outcome = [&](std::size_t line) {
+  Stages parts{{0, n},        {{{0, n}}}, [&](std::size_t, std::size_t, Stretch stretch) { proposing(stretch); },
+               passing("tw"), {},         [&](Stretch stretch) { return in_memory(stretch.size() * bytes); }};
+  if (has_chains) {
+    parts.lines = lines_of(layout, cast.chains);
+    parts.take = passing("td");
+    parts.outcome = [&](std::size_t line) {
       const Cut kept(n, cast.chains);
       return in_memory((kept.begin(line + 1) - kept.begin(line)) * sizeof(Index));
     };
   }
   RankStages ranks(team, cast, words.count("block"));
-  return seconds_a_step(team, words.count("steps"), [&](Step) {
+  return a_step(team, words.count("steps"), [&](Step) {
     if (words.count("step-bytes") > 0) team.share(anywhere(words.count("step-bytes")));
-    ranks.run(stages);
+    ranks.run(parts);
     team.share(anywhere(sizeof(StepReport)));
-    if (!chains && team.rank() == 0) pass(words("td") * static_cast<double>(n));
+    if (!has_chains && team.rank() == 0) pass(words("td") * static_cast<double>(n));
     team.share(anywhere(words.count("set-bytes")));
   });
+}
+
+Taken taken(const std::string& scenario, const Words& words, CountingTeam& team) {
+  if (scenario == "stages") return stages(words, team);
+  if (scenario == "chains") return chains(words, team);
+  if (scenario == "particles") return particles(words, team);
+  return words.count("number-bytes") == 4 ? groups<float>(words, team) : groups<double>(words, team);
 }
 
 }  // namespace
 
 int main(int count, char** words) {
   const MpiSession session(count, words);
-  const auto team = make_mpi_team();
-  const Words given(count, words);
-  const bool by_stages = std::string(words[1]) == "stage-parallel";
-  const double seconds = by_stages ? stage_parallel(given, *team) : data_parallel(given, *team);
-  if (team->rank() == 0) std::printf("{\"seconds_per_step\": %.17g}\n", seconds);
+  const auto ranks = make_mpi_team();
+  CountingTeam team(*ranks);
+  const Taken step = taken(words[1], Words(count, words), team);
+  if (team.rank() == 0)
+    std::printf(R"({"seconds_per_step": %.17g, "messages_per_step": %.17g, "bytes_per_step": %.17g})", step.seconds,
+                step.messages, step.bytes);
   return 0;
 }

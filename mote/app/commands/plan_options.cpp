@@ -121,6 +121,16 @@ std::vector<OptionSpec> plan_options() {
   };
 }
 
+GroupOptions exchange_from(const Arguments& arguments) {
+  GroupOptions groups;
+  groups.exchange = static_cast<Exchange>(arguments.choice("--exchange", {"none", "append", "replace", "swap"}));
+  groups.exchange_count = static_cast<std::size_t>(arguments.integer("--exchange-count", 1, kMost));
+  groups.topology =
+      static_cast<Topology>(arguments.choice("--topology", {"ring", "bidirectional", "torus", "hypercube"}));
+  groups.exchange_every = static_cast<std::size_t>(arguments.integer("--exchange-every", 1, kMost));
+  return groups;
+}
+
 Plan plan_from(const Arguments& arguments) {
   refuse_what_is_not_there(arguments);
   Plan plan;
@@ -134,14 +144,10 @@ Plan plan_from(const Arguments& arguments) {
   plan.selection.ess_threshold = arguments.number("--ess-threshold", 0, 1);
   plan.selection.exponent = arguments.number("--selection-exponent", 1e-6, 1);
   plan.chain = chain_from(arguments, plan.filter);
+  plan.groups = exchange_from(arguments);
   plan.groups.groups = static_cast<std::size_t>(arguments.integer("--groups", 1, kMost));
   plan.groups.resampling =
       static_cast<GroupResampling>(arguments.choice("--group-resampling", {"local", "global", "rpa", "rna", "chain"}));
-  plan.groups.exchange = static_cast<Exchange>(arguments.choice("--exchange", {"none", "append", "replace", "swap"}));
-  plan.groups.exchange_count = static_cast<std::size_t>(arguments.integer("--exchange-count", 1, kMost));
-  plan.groups.topology =
-      static_cast<Topology>(arguments.choice("--topology", {"ring", "bidirectional", "torus", "hypercube"}));
-  plan.groups.exchange_every = static_cast<std::size_t>(arguments.integer("--exchange-every", 1, kMost));
   plan.groups.exchange_when = arguments.number("--exchange-when", 0, 1);
   plan.groups.carry_group_weights = arguments.choice("--group-weights", {"carried", "reset"}) == 0;
   plan.engine = static_cast<Engine>(arguments.choice("--engine", kEngines));

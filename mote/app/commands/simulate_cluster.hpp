@@ -14,9 +14,9 @@ std::vector<OptionSpec> simulate_cluster_options();
 /// error   Refusal (kWrongUse, kBadData) for what it cannot be
 simulated::Sweep sweep_from(const Arguments& arguments);
 
-/// Measures what is to be measured, and runs the sweep.
+/// Measures what is to be measured, and runs the sweep; `progress` is told after every setting how many there are.
 ///
 /// error   Refusal (kOutsideTool) when SimGrid is missing or fails
-void run_sweep(simulated::Sweep& sweep, const Arguments& arguments, const simulated::SweepProgress& progress);
+void run_sweep(simulated::Sweep& sweep, const Arguments& arguments, const std::function<void(std::size_t)>& progress);
 
 }  // namespace mote

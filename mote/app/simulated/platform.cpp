@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -13,38 +14,58 @@ namespace {
 
 constexpr long long kMostCores = 1024;
 
-/// The numbers and where they come from. IMH-OPT says what the nodes of its clusters are, and nothing of their network.
-Platform built_in(const std::string& name) {
-  // Switched 100 Mbit Ethernet: the rate of the wire; 70 us is what MPICH over TCP took on such machines: our
-  // assumption.
-  if (name == "red")
-    return {name, "the Red cluster of IMH-OPT: 16 Pentium II (400 MHz); switched 100 Mbit Ethernet assumed", 16, 70e-6,
-            12.5e6};
-  if (name == "blue")
-    return {name, "the Blue cluster of IMH-OPT: 12 Pentium III (550 MHz); switched 100 Mbit Ethernet assumed", 12,
-            70e-6, 12.5e6};
-  // 100 Gbit InfiniBand (EDR, HDR100) and its usual MPI latency through a switch or two.
-  if (name == "modern")
-    return {name, "1024 nodes, a rank each, on 100 Gbit InfiniBand with full bisection", 1024, 1.5e-6, 12.5e9};
-  return {"ideal", "1024 nodes whose messages take no time: what the latency laws speak of", 1024, 0, 1e18};
+/// What stands between two texts, the first time that it does.
+std::optional<std::string> between(std::string_view text, std::string_view before, std::string_view after) {
+  const std::size_t start = text.find(before);
+  if (start == std::string_view::npos) return std::nullopt;
+  const std::size_t end = text.find(after, start + before.size());
+  if (end == std::string_view::npos) return std::nullopt;
+  return std::string(text.substr(start + before.size(), end - start - before.size()));
 }
 
-/// Starburst's cores have 100 MHz and its ring moves a word of 4 bytes a cycle and hop. A message costs what its
-/// copying in software does, not counted here.
-Platform ring(long long cores) {
-  return {fmt::format("ring:{}", cores),
-          fmt::format("{} cores of 100 MHz on a ring, like Starburst's: a hop takes a cycle, a word a cycle", cores),
-          static_cast<std::size_t>(cores),
-          10e-9,
-          400e6,
-          true};
+/// A number with one of the units of SimGrid that the files use.
+std::optional<double> quantity(const std::string& text) {
+  constexpr std::array<std::pair<std::string_view, double>, 8> kUnits{
+      {{"GBps", 1e9}, {"MBps", 1e6}, {"kBps", 1e3}, {"Bps", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}, {"s", 1}}};
+  for (const auto& [unit, size] : kUnits)
+    if (text.ends_with(unit)) {
+      const auto number = number_in(std::string_view(text).substr(0, text.size() - unit.size()));
+      return number ? std::optional(*number * size) : std::nullopt;
+    }
+  return std::nullopt;
+}
+
+/// A platform from the text of its file: the first comment says what it is, the cluster's attributes the rest.
+Platform described(const std::string& name, const std::string& xml) {
+  const std::string cluster = between(xml, "<cluster", "/>").value();
+  const auto attribute = [&](const std::string& key) { return between(cluster, " " + key + "=\"", "\"").value_or(""); };
+  return {.name = name,
+          .meaning = between(xml, "<!-- ", " -->").value(),
+          .xml = xml,
+          .hosts = static_cast<std::size_t>(integer_in(attribute("radical").substr(2)).value()) + 1,  // "0-15"
+          .link_latency_s = quantity(attribute("lat")).value(),
+          .bandwidth = quantity(attribute("bw")).value(),
+          .ring = !attribute("topology").empty()};
+}
+
+void put(std::string& text, const std::string& placeholder, const std::string& word) {
+  for (std::size_t at = text.find(placeholder); at != std::string::npos; at = text.find(placeholder, at))
+    text.replace(at, placeholder.size(), word);
+}
+
+/// One of data/platforms, with so many cores where it is a template.
+Platform built_in(const std::string& name, const std::string& file, long long cores) {
+  std::string xml(platform_files().at(file));
+  put(xml, "@CORES@", std::to_string(cores));
+  put(xml, "@LAST@", std::to_string(cores - 1));
+  return described(name, xml);
 }
 
 }  // namespace
 
 Platform platform_from(const std::string& text, const std::string& where) {
   for (const char* name : {"red", "blue", "modern", "ideal"})
-    if (text == name) return built_in(text);
+    if (text == name) return built_in(text, text, 0);
   const auto refused = [&](const std::string& expected) {
     return Refusal(ExitCode::kWrongUse, {where, "--platform", expected, "\"" + text + "\"", "Pass --platform modern."});
   };
@@ -52,7 +73,7 @@ Platform platform_from(const std::string& text, const std::string& where) {
     const auto cores = integer_in(text.substr(5));
     if (!cores || *cores < 2 || *cores > kMostCores)
       throw refused(fmt::format("ring:N, N cores from 2 to {}", kMostCores));
-    return ring(*cores);
+    return built_in(text, "ring", *cores);
   }
   if (!text.ends_with(".xml")) throw refused(std::string(kPlatforms));
   std::error_code error;
@@ -60,22 +81,6 @@ Platform platform_from(const std::string& text, const std::string& where) {
     throw Refusal(ExitCode::kBadData,
                   {text, "", "a platform file of SimGrid", "no file that can be read", "Check the path."});
   return {.name = text, .meaning = "as the file says", .file = std::filesystem::absolute(text).string()};
-}
-
-std::string platform_xml(const Platform& platform) {
-  // a message crosses its sender's link and its receiver's; on a ring, a link for each hop
-  const double link_latency = platform.ring ? platform.latency_s : platform.latency_s / 2;
-  const std::string topology =
-      platform.ring ? fmt::format(" topology=\"TORUS\" topo_parameters=\"{}\"", platform.hosts) : "";
-  return fmt::format(
-      "<?xml version='1.0'?>\n"
-      "<!DOCTYPE platform SYSTEM \"https://simgrid.org/simgrid.dtd\">\n"
-      "<!-- {} -->\n"
-      "<platform version=\"4.1\">\n"
-      "  <cluster id=\"cluster\" prefix=\"host\" suffix=\"\" radical=\"0-{}\" speed=\"1Gf\" bw=\"{:g}Bps\" "
-      "lat=\"{:g}s\"{}/>\n"
-      "</platform>\n",
-      platform.meaning, platform.hosts - 1, platform.bandwidth, link_latency, topology);
 }
 
 std::string host_list(const Platform& platform) {

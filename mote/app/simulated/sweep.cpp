@@ -1,5 +1,6 @@
 #include "mote/app/simulated/sweep.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -27,7 +28,7 @@ class Stage {
       return;
     }
     hosts_ = folder_.file("hosts");
-    std::ofstream(platform_) << platform_xml(platform);
+    std::ofstream(platform_) << platform.xml;
     std::ofstream(hosts_) << host_list(platform);
   }
 
@@ -58,45 +59,67 @@ std::string last_lines(const std::string& text) {
   return line.empty() ? "nothing" : line;
 }
 
-double simulated(const Stage& stage, std::size_t ranks, const std::vector<std::string>& scenario,
-                 const std::string& where) {
-  std::vector<std::string> words = stage.words(ranks);
+/// Runs a setting; what a step took is noted in it.
+void simulate(const Stage& stage, const std::vector<std::string>& scenario, SweepRun& run, const std::string& where) {
+  std::vector<std::string> words = stage.words(run.ranks);
   words.push_back(beside(kRanks));
   words.insert(words.end(), scenario.begin(), scenario.end());
   const OutsideEnd end = run_outside("smpirun", words);
   const auto json = nlohmann::json::parse(end.out, nullptr, false);
   if (end.code != 0 || !json.is_object())
-    throw failed(where, "smpirun", fmt::format("a simulation of {} ranks", ranks),
+    throw failed(where, "smpirun", fmt::format("a simulation of {} ranks", run.ranks),
                  fmt::format("exit code {} and \"{}\"", end.code, last_lines(end.err)),
                  "Check the platform, and that there is memory for the ranks.");
-  return json.at("seconds_per_step").get<double>();
+  run.seconds_per_step = json.at("seconds_per_step").get<double>();
+  run.messages_per_step = json.at("messages_per_step").get<double>();
+  run.bytes_per_step = json.at("bytes_per_step").get<double>();
 }
 
-std::vector<std::string> data_parallel_scenario(const Workload& work, std::size_t particles) {
-  const double variation = std::sqrt(std::max(0.0, 1 / work.ess_share - 1));
-  return {"data-parallel",
+/// A scenario's name and the words that all have.
+std::vector<std::string> scenario(const std::string& name, const Workload& work, std::size_t particles) {
+  return {name,
           fmt::format("particles={}", particles),
           fmt::format("dimensions={}", work.dimensions),
           fmt::format("angles={}", work.angles),
           fmt::format("number-bytes={}", work.number_bytes),
-          fmt::format("variation={}", variation),
-          fmt::format("seed={}", work.seed),
-          fmt::format("steps={}", work.steps),
-          fmt::format("seconds={}", seconds_per_particle(work))};
+          fmt::format("tp={}", work.times.propose),
+          fmt::format("tw={}", work.times.weigh),
+          fmt::format("td={}", work.times.chain),
+          fmt::format("steps={}", work.steps)};
+}
+
+std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+std::vector<std::string> data_parallel_scenario(const Workload& work, std::size_t ranks) {
+  const std::size_t particles = work.particles_of(ranks);
+  if (work.filter == FilterKind::kSisr)
+    return with(scenario("particles", work, particles),
+                {fmt::format("variation={}", std::sqrt(std::max(0.0, 1 / work.ess_share - 1))),
+                 fmt::format("seed={}", work.seed)});
+  if (work.filter == FilterKind::kDistributed)
+    return with(scenario("groups", work, particles),
+                {fmt::format("groups={}", work.groups_of(ranks)),
+                 fmt::format("exchange={}", static_cast<int>(work.groups.exchange)),
+                 fmt::format("exchange-count={}", work.groups.exchange_count),
+                 fmt::format("exchange-every={}", work.groups.exchange_every),
+                 fmt::format("topology={}", static_cast<int>(work.groups.topology))});
+  return with(scenario("chains", work, particles),
+              {fmt::format("chains={}", work.chains), fmt::format("weighted-start={}", work.weighted_start ? 1 : 0)});
 }
 
 std::vector<std::string> stage_parallel_scenario(const Workload& work, const Cast& cast) {
   const bool resamples = work.filter == FilterKind::kSisr;
   const std::size_t state = work.dimensions * work.number_bytes;
-  return {"stage-parallel", fmt::format("proposers={}", cast.proposers), fmt::format("weighers={}", cast.weighers),
-          fmt::format("chains={}", cast.chains), fmt::format("resamples={}", resamples ? 1 : 0),
-          fmt::format("particles={}", work.particles),
-          // states and log weights; what the chain decides by
-          fmt::format("particle-bytes={}", state + (resamples ? 8 : 16)),
-          fmt::format("set-bytes={}", work.particles * (state + (resamples ? 8 : 0))),
-          fmt::format("step-bytes={}", work.step_bytes), fmt::format("block={}", work.block),
-          fmt::format("tp={}", work.times.propose), fmt::format("tw={}", work.times.weigh),
-          fmt::format("td={}", work.times.chain), fmt::format("steps={}", work.steps)};
+  return with(scenario("stages", work, work.particles),
+              {fmt::format("proposers={}", cast.proposers), fmt::format("weighers={}", cast.weighers),
+               fmt::format("chains={}", cast.chains), fmt::format("resamples={}", resamples ? 1 : 0),
+               // states and log weights; what the chain decides by
+               fmt::format("particle-bytes={}", state + (resamples ? 8 : 16)),
+               fmt::format("set-bytes={}", work.particles * (state + (resamples ? 8 : 0))),
+               fmt::format("step-bytes={}", work.step_bytes), fmt::format("block={}", work.block)});
 }
 
 }  // namespace
@@ -125,18 +148,16 @@ std::vector<SweepRun> data_parallel_sweep(const Platform& platform, const Worklo
                                           const std::vector<std::size_t>& ranks, const std::string& where,
                                           const SweepProgress& progress) {
   const Stage stage(platform);
-  std::vector<std::size_t> all = ranks;
-  if (all.front() != 1) all.insert(all.begin(), 1);
   std::vector<SweepRun> runs;
-  for (const std::size_t r : all) {
-    SweepRun run{.ranks = r, .particles = work.weak ? r * work.particles : work.particles};
-    run.seconds_per_step = simulated(stage, r, data_parallel_scenario(work, run.particles), where);
+  for (const std::size_t r : ranks) {
+    SweepRun run{.ranks = r, .particles = work.particles_of(r)};
+    simulate(stage, data_parallel_scenario(work, r), run, where);
     const double alone = (runs.empty() ? run : runs.front()).seconds_per_step;
     const auto count = static_cast<double>(r);
     run.efficiency = alone / run.seconds_per_step / (work.weak ? 1 : count);
     run.speedup = run.efficiency * count;
     runs.push_back(run);
-    progress(runs.size(), all.size());
+    progress();
   }
   return runs;
 }
@@ -153,6 +174,12 @@ double law_of(const Workload& work, const Cast& cast) {
                                           : single_chain_time(blocks, times, proposers, weighers);
 }
 
+double most_speedup(const Workload& work, const Cast& cast) {
+  const double others = std::max(work.times.weigh / static_cast<double>(cast.weighers),
+                                 work.times.chain / static_cast<double>(cast.chains));
+  return std::max(work.times.propose, others) / others;
+}
+
 std::vector<SweepRun> stage_parallel_sweep(const Platform& platform, const Workload& work,
                                            const std::vector<std::size_t>& proposers,
                                            const std::vector<std::size_t>& weighers, const std::string& where,
@@ -164,12 +191,12 @@ std::vector<SweepRun> stage_parallel_sweep(const Platform& platform, const Workl
       SweepRun run{.particles = work.particles, .cast = {rp, rw, work.chains}};
       run.ranks = run.cast.ranks();
       run.law_seconds = law_of(work, run.cast);
-      run.seconds_per_step = simulated(stage, run.ranks, stage_parallel_scenario(work, run.cast), where);
+      simulate(stage, stage_parallel_scenario(work, run.cast), run, where);
       run.speedup = (runs.empty() ? run : runs.front()).seconds_per_step / run.seconds_per_step;
       run.efficiency = static_cast<double>(work.particles) * seconds_per_particle(work) /
                        (static_cast<double>(run.ranks) * run.seconds_per_step);
       runs.push_back(run);
-      progress(runs.size(), proposers.size() * weighers.size());
+      progress();
     }
   return runs;
 }

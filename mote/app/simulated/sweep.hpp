@@ -23,12 +23,18 @@ struct Workload {
   StageTimes times{};  ///< seconds a particle
   std::size_t dimensions = 1, angles = 0;
   std::size_t number_bytes = 8;
-  double ess_share = 1;  ///< ESS / N of the weights
+  double ess_share = 1;  ///< ESS / N of the weights; of SISR on shares
   std::size_t chains = 1;
-  std::size_t block = 0;       ///< particles in a message between stages; 0: message_block()
-  std::size_t step_bytes = 0;  ///< that rank 0 hands to all in every step besides
+  bool weighted_start = false;  ///< of chains on shares
+  GroupOptions groups{};        ///< of the distributed filter; 0 groups: one a rank
+  std::size_t block = 0;        ///< particles in a message between stages; 0: message_block()
+  std::size_t step_bytes = 0;   ///< that rank 0 hands to all in every step besides
   std::size_t steps = 10;
   std::uint64_t seed = 1;
+
+  /// Particles of so many ranks.
+  std::size_t particles_of(std::size_t ranks) const { return weak && !by_stages ? ranks * particles : particles; }
+  std::size_t groups_of(std::size_t ranks) const { return groups.groups == 0 ? ranks : groups.groups; }
 };
 
 /// Seconds of a particle's whole step.
@@ -42,24 +48,25 @@ struct SweepRun {
   std::size_t particles = 0;  ///< of all ranks
   Cast cast{};                ///< by stages
   double seconds_per_step = 0;
+  double messages_per_step = 0, bytes_per_step = 0;  ///< of all ranks, as CountingTeam counts
   double law_seconds = 0;  ///< by stages: what the latency laws say of the same blocks, where messages take no time
   double speedup = 1, efficiency = 1;
 };
 
 /// Told after every setting.
-using SweepProgress = std::function<void(std::size_t done, std::size_t all)>;
+using SweepProgress = std::function<void()>;
 
 /// Refuses to go on without SimGrid or mote-smpi (Refusal, kOutsideTool).
 void check_tools(const std::string& where);
 
-/// Simulates steps of the data-parallel SISR filter on each number of ranks, and on one, which the others are compared
-/// with.
+/// Simulates steps of a data-parallel filter – SISR, IMH, its auxiliary filter or the distributed one – on each number
+/// of ranks, the first of which is one: what the others are compared with.
 ///
 ///   weak     efficiency = T(1) / T(R),      speed-up = R T(1) / T(R)
 ///   strong   efficiency = T(1) / (R T(R)),  speed-up = T(1) / T(R)
 ///
 /// error   Refusal (kOutsideTool) when a simulation fails
-/// cost    O(R log R) messages a step, some 10 us of this machine each
+/// cost    O(R log R) messages a step, some 10 us of this machine each; R a column with chains
 std::vector<SweepRun> data_parallel_sweep(const Platform& platform, const Workload& work,
                                           const std::vector<std::size_t>& ranks, const std::string& where,
                                           const SweepProgress& progress);
@@ -76,5 +83,8 @@ std::vector<SweepRun> stage_parallel_sweep(const Platform& platform, const Workl
 
 /// What the latency laws say of a step of a cast.
 double law_of(const Workload& work, const Cast& cast);
+
+/// How much faster than one proposer any number of them can be:  max(T_p, T_w/R_w, T_d/P) / max(T_w/R_w, T_d/P).
+double most_speedup(const Workload& work, const Cast& cast);
 
 }  // namespace mote::simulated
