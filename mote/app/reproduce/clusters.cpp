@@ -8,6 +8,17 @@
 #include "mote/base/refusal.hpp"
 
 namespace mote::reproduce {
+namespace {
+
+double figure_of(const simulated::Sweep& sweep, const simulated::SweepRun& run, const std::string& key) {
+  if (key == "seconds") return run.seconds_per_step * static_cast<double>(sweep.work.steps);
+  if (key == "seconds_over_law") return run.seconds_per_step / run.law_seconds;
+  if (key == "speedup_over_law") return run.speedup * run.law_seconds / sweep.runs.front().law_seconds;
+  if (key == "speedup_over_most") return run.speedup / simulated::most_speedup(sweep.work, run.cast);
+  return run.speedup;
+}
+
+}  // namespace
 
 Clusters::Clusters(const Item& item) : file_(item.file) {
   for (const Run& run : item.runs) {
@@ -42,7 +53,7 @@ std::string Clusters::missing() const {
 const simulated::Sweep& Clusters::sweep(const std::string& run, const std::function<void()>& ran) {
   Asked& asked = sweeps_.at(run);
   if (asked.sweep.runs.empty()) {
-    run_sweep(asked.sweep, asked.arguments, [](std::size_t, std::size_t) {});
+    run_sweep(asked.sweep, asked.arguments, [](std::size_t) {});
     ran();
   }
   return asked.sweep;
@@ -52,7 +63,7 @@ double Clusters::figure(const Comparison& c, std::size_t side, const std::functi
   const simulated::Sweep& sweep = this->sweep(c.runs[side], ran);
   for (const simulated::SweepRun& run : sweep.runs)
     if (run.cast.proposers == c.cast.proposers && run.cast.weighers == c.cast.weighers)
-      return c.key == "speedup" ? run.speedup : run.seconds_per_step * static_cast<double>(sweep.work.steps);
+      return figure_of(sweep, run, c.key);
   return kNaN;
 }
 

@@ -152,7 +152,7 @@ Figure figure_from(Fields fields, const Item& item) {
   } else if (item.clip) {
     figure.frames = rising(fields, "frames");
   } else if (item.cluster) {
-    figure.quantity = kClusterKeys[fields.choice("quantity", kClusterKeys)];
+    figure.quantity = kClusterKeys[fields.choice("quantity", std::span(kClusterKeys).first(2))];
   } else {
     figure.state = fields.text_or("state", "");
     figure.error = fields.yes("error");
@@ -236,6 +236,16 @@ Comparison comparison_from(Fields fields, const Item& item) {
   return c;
 }
 
+std::string_view meaning_of_key(const std::string& key) {
+  if (key == "speedup") return "Speed-up over the first setting";
+  if (key == "seconds_over_law") return "Time over what the latency law says";
+  if (key == "speedup_over_law") return "Speed-up over the first setting, over what the latency law says of it";
+  if (key == "speedup_over_most")
+    return "Speed-up over the first setting, over the most that the stages' times allow, "
+           "max(T_p, T) / max(T_p/R_p, T) with T = max(T_w/R_w, T_d)";
+  return "Seconds of all steps";
+}
+
 }  // namespace
 
 Item read_item(const std::string& path, const std::string& paper) {
@@ -312,8 +322,7 @@ std::string meaning_of(const Comparison& c) {
     case Kind::kTrack:
       return fmt::format("Figure of a track, {} over filter seeds and drawn clips", kMiddles[c.median ? 1 : 0]);
     case Kind::kCluster:
-      return fmt::format("{} on a simulated cluster, {} proposers, {} weighers",
-                         c.key == "speedup" ? "Speed-up over the first setting" : "Seconds of all steps",
+      return fmt::format("{} on a simulated cluster, {} proposers, {} weighers", meaning_of_key(c.key),
                          c.cast.proposers, c.cast.weighers);
     case Kind::kParticlesEnough:
       return fmt::format(

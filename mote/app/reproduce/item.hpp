@@ -103,7 +103,7 @@ struct Figure {
   std::string against =
       {};            ///< draw the error to the posterior mean against this: a key of kAgainst; `runs` may be series
   int repeats = 20;  ///< of such a figure
-  std::string quantity = {};  ///< of an item on clusters: a key of kClusterKeys, over the ranks
+  std::string quantity = {};  ///< of an item on clusters: one of the first two kClusterKeys, over the ranks
 };
 
 /// One item.
@@ -126,8 +126,10 @@ inline constexpr std::array<std::string_view, 7> kSummaryKeys{
 /// What an error may be drawn against: what the groups of a run send, or the number that its series sweeps.
 inline constexpr std::array<std::string_view, 3> kAgainst{"bytes_per_step", "messages_per_step", "number"};
 
-/// The figures of a cast on a simulated cluster: seconds of all steps, and the first setting's over them.
-inline constexpr std::array<std::string_view, 2> kClusterKeys{"seconds", "speedup"};
+/// The figures of a cast on a simulated cluster: seconds of all steps, and the first setting's over them, which are
+/// drawn; both over what the latency laws say; and the speed-up over the most that the stages' times allow.
+inline constexpr std::array<std::string_view, 5> kClusterKeys{"seconds", "speedup", "seconds_over_law",
+                                                              "speedup_over_law", "speedup_over_most"};
 
 /// The figures of a track that a comparison may ask for; those of time are a particle's stages in microseconds, and how
 /// much longer than the others its weight takes.

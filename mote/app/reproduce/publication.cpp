@@ -71,6 +71,9 @@ std::vector<std::string> notes_on(const std::vector<Regenerated>& all) {
     for (const Result& result : outcome.results)
       if (!result.asked.note.empty())
         notes.push_back(fmt::format("{}, {}: {}.", name_of(item), result.asked.name, result.asked.note));
+    for (const auto& [run, sweep] : outcome.sweeps)
+      notes.push_back(
+          fmt::format("{}, {}: {}, {}.", name_of(item), run, simulated::times_of(sweep.work), sweep.where_from));
     for (const std::string& collapse : outcome.collapses) notes.push_back(name_of(item) + ", " + collapse);
   }
   return notes;

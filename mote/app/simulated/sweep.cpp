@@ -177,7 +177,8 @@ double law_of(const Workload& work, const Cast& cast) {
 double most_speedup(const Workload& work, const Cast& cast) {
   const double others = std::max(work.times.weigh / static_cast<double>(cast.weighers),
                                  work.times.chain / static_cast<double>(cast.chains));
-  return std::max(work.times.propose, others) / others;
+  return std::max(work.times.propose, others) /
+         std::max(work.times.propose / static_cast<double>(cast.proposers), others);
 }
 
 std::vector<SweepRun> stage_parallel_sweep(const Platform& platform, const Workload& work,

@@ -84,7 +84,9 @@ std::vector<SweepRun> stage_parallel_sweep(const Platform& platform, const Workl
 /// What the latency laws say of a step of a cast.
 double law_of(const Workload& work, const Cast& cast);
 
-/// How much faster than one proposer any number of them can be:  max(T_p, T_w/R_w, T_d/P) / max(T_w/R_w, T_d/P).
+/// How much faster than with one proposer a cast can be, where no stage waits for another:
+///
+///   max(T_p, T) / max(T_p/R_p, T),   T = max(T_w/R_w, T_d/P)
 double most_speedup(const Workload& work, const Cast& cast);
 
 }  // namespace mote::simulated
