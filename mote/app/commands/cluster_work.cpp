@@ -50,8 +50,8 @@ bool second_of(const Arguments& arguments, const std::string& first, const std::
 void refuse_beside(const Arguments& arguments, const std::vector<std::string>& options, const std::string& beside) {
   for (const std::string& option : options)
     if (arguments.given(option))
-      throw Refusal(ExitCode::kWrongUse,
-                    {arguments.where(), option, "no " + option + " beside " + beside, option, "Leave it out."});
+      throw Refusal(ExitCode::kWrongUse, {arguments.where(), option, fmt::format("no {} beside {}", option, beside),
+                                          option, "Leave it out."});
 }
 
 /// Refuses options that the filter does not read.

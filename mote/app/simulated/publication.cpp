@@ -203,7 +203,8 @@ report::Page sweep_page(const Sweep& sweep) {
       kMessageModel,
       "Bytes a step: of all ranks; what a rank tells all goes once to each of them, and sums by doubled distances."};
   if (!sweep.rivals.empty() && sweep.rivals.back().ranks != sweep.ranks)
-    page.notes.push_back("sisr has whole blocks of 1024 particles on every rank; more ranks than those it cannot use.");
+    page.notes.emplace_back(
+        "sisr has whole blocks of 1024 particles on every rank; more ranks than those it cannot use.");
   return page;
 }
 
