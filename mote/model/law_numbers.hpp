@@ -2,6 +2,7 @@
 /// Stand-ins for the number types of later engines, for the laws of models: a recording Node (a graph), a Pack (a
 /// vector of four), and draws that are read from lists.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -102,10 +103,17 @@ struct Node {
 
 /// Four numbers at once, as a vector engine holds them.
 struct Pack {
+  using Number = double;
   static constexpr std::size_t kLanes = 4;
   std::array<double, kLanes> v{};
   Pack() = default;
   explicit Pack(double all) { v.fill(all); }
+  static Pack load(const double* from) {
+    Pack out;
+    std::copy_n(from, kLanes, out.v.begin());
+    return out;
+  }
+  void store(double* to) const { std::copy_n(v.begin(), kLanes, to); }
   template <class F, class... P>
   static Pack map(F f, const P&... packs) {
     Pack out;
@@ -127,6 +135,8 @@ struct Pack {
   friend Pack operator-(Pack a) {
     return map([](double x) { return -x; }, a);
   }
+  friend Pack fma(Pack a, Pack b, Pack c) { return a * b + c; }
+  friend Pack fnma(Pack a, Pack b, Pack c) { return c - a * b; }
   friend Pack less(Pack a, Pack b) {
     return map([](double x, double y) { return x < y ? 1.0 : 0.0; }, a, b);
   }

@@ -217,7 +217,6 @@ const std::vector<Case> kUse{
     {"CheckpointInNoFolder", kGood, kRun + "--checkpoint no/c", 6, "no/c: expected an output that can be written"},
     {"CheckpointOfACompare", kGood, "mote compare local-level --checkpoint c", 2, R"(got "--checkpoint")"},
     {"NoBudgetYet", kGood, kRun + "--budget 1ms", 2, "--budget: this version"},
-    {"NoTextModelsYet", kGood, "mote run model.toml --data d.csv", 2, "models given as text"},
     {"TooManyParticles", kGood, kRun + "-n 268435457", 2, "--particles: expected an integer from 1 to 268435456"},
     {"ParticlesInWords", kGood, kRun + "-n many", 2, "--particles: expected an integer"},
     {"ParticlesWithExponent", kGood, kRun + "-n 1e3", 2, "--particles: expected an integer"},
@@ -229,7 +228,26 @@ const std::vector<Case> kUse{
     {"UnknownPaper", "", "mote reproduce nature --out r", 2, "PAPER: expected one of imh-hw"},
 };
 
+const std::string kText = "mote run other.toml --data d.csv --out e.csv ";
+const std::string kWalk =
+    "[parameters]\nq = 1\n[states]\nlevel = \"normal(1000, 100)\"\n[next]\nlevel = \"level + sqrt(q)*normal(0, 1)\"\n"
+    "[observations]\ny = \"normal(level, 50)\"\n";
+
 const std::vector<Case> kFiles{
+    {"TextModelMissing", kGood, "mote run no.toml --data d.csv", 3, R"(no\.toml: expected a file that can be read)"},
+    {"TextModelOfMatrices", kGood, kText, 3, R"(other\.toml:1: expected a section or key of a model, got "F")",
+     "F=1\n"},
+    {"TextModelBroken", kGood, kText, 3, R"(other\.toml:1: expected TOML)", "[states\n"},
+    {"TextModelInOtherLetters", kGood, kText, 3, R"(other\.toml:2: expected plain ASCII)", "name='a'\n#\xd0\xbb\n"},
+    {"TextModelWithAStrangeWord", kGood, kText, 3, R"(other\.toml:2: x: expected a function, got "nromal")",
+     "[states]\nx = \"nromal(0, 1)\"\n[next]\nx = \"x\"\n[observations]\ny = \"normal(x, 1)\"\n"},
+    {"TextModelWithoutThatParameter", kGood, kText + "--set r=1", 2, R"(--set: expected a parameter of other\.toml)",
+     kWalk},
+    {"TextModelWithAParameterInWords", kGood, kText + "--set q=big", 2, "--set q: expected a finite number", kWalk},
+    {"TextModelWithAParameterOfNoUse", kGood, kText + "--set q=-1", 3,
+     R"(other\.toml:6: level: expected parameters that give finite numbers)", kWalk},
+    {"TextModelWithoutItsColumn", "t,z\n1,2\n", kText, 3, R"(d\.csv)", kWalk},
+    {"TextModelWithAProposal", kGood, kText + "--proposal guided", 2, "--proposal: expected one of", kWalk},
     {"NoMatrices", kGood, "mote run linear-gaussian --data d.csv", 2, "--set file"},
     {"MatricesMissing", kGood, "mote run linear-gaussian --data d.csv --set file=no.toml", 3,
      R"(no\.toml: expected a file)"},

@@ -20,6 +20,14 @@ TOML = ("F = [[1, 0.5], [0, 1]]\nQ = [[1, 0], [0, 1]]\nH = [[1, 0]]\nR = 2\nmean
         "covariance = [[1, 0], [0, 1]]\nstates = [\"x\", \"v\"]\nobservations = [\"y\"]\n")
 JSON = ('{"F": [[1, 0.5], [0, 1]], "Q": [[1, 0], [0, 1]], "H": [[1, 0]], "R": [[2]], "m0": [0, 1], '
         '"P0": [[1, 0], [0, 1]], "states": ["x", "v"]}')
+TEXT_MODELS = [
+    "name = \"g\"\n[parameters]\nq = 10.0\n[inputs]\ngain = 1\n[states]\nx = \"normal(0, sqrt(5))\"\n[next]\n"
+    "x = \"0.5*x + 25*x/(1 + x^2) + 8*cos(1.2*(t - 1)) + sqrt(q)*normal(0, 1)\"\n[observations]\n"
+    "y = \"normal(gain*x^2/20, 1)\"\n",
+    "[states]\na = 1\nb = \"uniform(-pi, e)\"\n[noise]\nu = \"normal(0, 1)\"\n[next]\na = \"wrap(a + u)\"\n"
+    "b = \"min(b, 2) - max(abs(u), .5)\"\n[observations]\nz = \"angle(atan2(a, b), exp(-b))\"\n"
+    "log_likelihood = \"-(w - b^-2)^2 + log(z)\"\n",
+]
 WORDS = [
     "mean(x)", "sd(vx)", "median(y)", "q0.95(x)", "P(x>1.5)", "P(vy<-1e3)", "x",
     "q=2.5", "copies=2", "sigma_u=0.01\ndamping=0.9\nx0=-3", "q=1\nr=2\ncopies=2\np0=5\na=0.5\nomega=1.2",
@@ -34,6 +42,7 @@ SEEDS = {
     "app.matrices_fuzz": [TOML.encode(), JSON.encode()],
     "app.words_fuzz": [text.encode() for text in WORDS],
     "app.run_fuzz": RUNS,
+    "graph.text_fuzz": [text.encode() for text in TEXT_MODELS],
 }
 
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "mote/app/catalogue/text_entry.hpp"
 #include "mote/app/terminal/suggestion.hpp"
 #include "mote/base/refusal.hpp"
 
@@ -22,19 +23,16 @@ void refuse_without_team(const std::string& where) {
                                       "another command", "Pass --engine simd, or leave it out."});
 }
 
-const CatalogueEntry& find_model(const std::string& name, const std::string& where) {
+CatalogueEntry find_model(const std::string& name, const std::string& where) {
+  if (is_text_model(name)) return text_entry(name);
   std::vector<std::string> known;
   for (const CatalogueEntry& entry : catalogue()) {
     if (entry.name == name) return entry;
     known.push_back(entry.name);
   }
   const std::string names = fmt::format("{}", fmt::join(known, ", "));
-  if (name.ends_with(".toml"))
-    throw Refusal(ExitCode::kWrongUse,
-                  {where, "MODEL", "one of " + names + " (this version of mote does not have models given as text yet)",
-                   "\"" + name + "\"", "See mote models."});
-  throw Refusal(ExitCode::kWrongUse,
-                {where, "MODEL", "one of " + names, "\"" + name + "\"", hint(name, known, "See mote models.")});
+  throw Refusal(ExitCode::kWrongUse, {where, "MODEL", "one of " + names + ", or a .toml file", "\"" + name + "\"",
+                                      hint(name, known, "See mote models.")});
 }
 
 }  // namespace mote

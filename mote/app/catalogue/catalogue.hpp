@@ -63,8 +63,9 @@ struct CatalogueEntry {
   std::unique_ptr<CatalogueModel> make(const Settings& settings, std::span<const std::string> header) const {
     return build(name, settings, header);
   }
-  std::unique_ptr<CatalogueModel> (*build)(const std::string& model_name, const Settings& settings,
-                                           std::span<const std::string> header);
+  std::function<std::unique_ptr<CatalogueModel>(const std::string& model_name, const Settings& settings,
+                                                std::span<const std::string> header)>
+      build;
 };
 
 /// All models, in the order of models.txt.
@@ -73,9 +74,9 @@ const std::vector<CatalogueEntry>& catalogue();
 /// Refuses --engine mpi where no team of processes was started.
 [[noreturn]] void refuse_without_team(const std::string& where);
 
-/// The entry of that name.
+/// The entry of that name, or of the model given as text in a .toml file.
 ///
-/// error   Refusal (kWrongUse) that lists the names there are
-const CatalogueEntry& find_model(const std::string& name, const std::string& where);
+/// error   Refusal (kWrongUse) that lists the names there are; Refusal (kBadData) when the file is no model
+CatalogueEntry find_model(const std::string& name, const std::string& where);
 
 }  // namespace mote

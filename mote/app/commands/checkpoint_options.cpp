@@ -5,6 +5,7 @@
 #include <boost/crc.hpp>
 #include <fmt/format.h>
 
+#include "mote/app/catalogue/text_entry.hpp"
 #include "mote/app/commands/plan_options.hpp"
 #include "mote/app/files/text.hpp"
 #include "mote/engine/team.hpp"
@@ -41,6 +42,7 @@ std::string instruction_set(const Plan& plan) {
 
 RunFacts facts_of(const Arguments& arguments, const Plan& plan, const Job& job) {
   RunFacts facts{{"mote", MOTE_VERSION}, {"MODEL", job.model_name}};
+  if (is_text_model(job.model_name)) facts.emplace_back("model of checksum", checksum_of(read_text(job.model_name)));
   std::vector<std::string> settings = arguments.list("--set");
   std::sort(settings.begin(), settings.end());
   facts.emplace_back("--set", fmt::format("{}", fmt::join(settings, " ")));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "mote/app/catalogue/text_entry.hpp"
 #include "mote/app/commands/command.hpp"
 #include "mote/app/commands/particle_list.hpp"
 #include "mote/app/compare/publication.hpp"
@@ -96,6 +97,8 @@ std::optional<double> lost_beyond_from(const Arguments& arguments) {
 void protect_inputs(OutputSet& outputs, const Arguments& arguments) {
   outputs.protect(arguments.text("--data"));
   outputs.protect(arguments.text("--truth"));
+  for (const std::string_view model : parts_of(arguments.text("MODEL"), ','))
+    if (is_text_model(std::string(model))) outputs.protect(std::string(model));
   for (const std::string& setting : arguments.list("--set"))
     if (setting.starts_with("file=")) outputs.protect(setting.substr(5));
 }
@@ -173,7 +176,7 @@ Command compare_command() {
   return {
       "compare",
       "Compare filters on the same recordings",
-      {{"MODEL", "a model of the catalogue (see mote models), or several separated by commas"}},
+      {{"MODEL", "a model of the catalogue (see mote models), or a .toml file, or several separated by commas"}},
       {{"--data", "FILE", "", "one recording as CSV, instead of simulated ones", "Data"},
        {"--truth", "FILE", "", "its true states as CSV [none]", "Data"},
        {"--steps", "T", "100", "steps of a simulated recording, from 1 to 1000000", "Data"},

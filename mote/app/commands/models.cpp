@@ -56,7 +56,7 @@ ExitCode run_models(const Arguments& arguments) {
 Command models_command() {
   return {"models",
           "List the models, or show one with its parameters",
-          {{"NAME", "model to show", false}},
+          {{"NAME", "model to show, or a .toml file", false}},
           {{"--json", "", "", "print as JSON", "Output"}},
           run_models,
           ""};

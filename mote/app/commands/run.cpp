@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mote/app/catalogue/catalogue.hpp"
+#include "mote/app/catalogue/text_entry.hpp"
 #include "mote/app/commands/checkpoint_options.hpp"
 #include "mote/app/commands/command.hpp"
 #include "mote/app/commands/job.hpp"
@@ -48,6 +49,7 @@ void print_summary(const RunRecord& record, const Summary& s) {
 void protect_inputs(OutputSet& outputs, const Arguments& arguments) {
   outputs.protect(arguments.text("--data"));
   outputs.protect(arguments.text("--truth"));
+  if (is_text_model(arguments.text("MODEL"))) outputs.protect(arguments.text("MODEL"));
   for (const std::string& setting : arguments.list("--set"))
     if (setting.starts_with("file=")) outputs.protect(setting.substr(5));
 }
@@ -204,7 +206,7 @@ Command run_command(std::function<ExitCode(const Arguments&)> team) {
   for (OptionSpec& option : checkpoint_options()) options.push_back(std::move(option));
   return {"run",
           "Filter a recording",
-          {{"MODEL", "a model of the catalogue (see mote models)"}},
+          {{"MODEL", "a model of the catalogue (see mote models), or a .toml file"}},
           std::move(options),
           [team = std::move(team)](const Arguments& arguments) {
             return arguments.text("--engine") == name_of(Engine::kMpi) ? team(arguments) : run_alone(arguments);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "mote/app/catalogue/scene.hpp"
+#include "mote/app/catalogue/text_entry.hpp"
 #include "mote/app/commands/command.hpp"
 #include "mote/app/files/output.hpp"
 #include "mote/app/terminal/progress.hpp"
@@ -41,6 +42,7 @@ ExitCode run_simulate(const Arguments& arguments) {
   const auto seed = static_cast<std::uint64_t>(arguments.integer("--seed", 0, 9223372036854775807LL));
   const std::atomic<bool>& stop = stop_flag();
   OutputSet outputs;
+  if (is_text_model(arguments.text("MODEL"))) outputs.protect(arguments.text("MODEL"));
   for (const std::string& setting : arguments.list("--set"))
     if (setting.starts_with("file=")) outputs.protect(setting.substr(5));
   Output* data = outputs.open(arguments.required("--out", "a file for the observations", "Pass --out obs.csv."));
@@ -70,7 +72,7 @@ Command simulate_command() {
   return {
       "simulate",
       "Draw a recording from a model",
-      {{"MODEL", "a model of the catalogue (see mote models)"}},
+      {{"MODEL", "a model of the catalogue (see mote models), or a .toml file"}},
       {{"--steps", "T", "100", "number of steps, from 1 to 10000000", "Simulation"},
        {"--seed", "S", "1", "seed, an integer of at least 0; same seed, same recording", "Simulation"},
        {"--set", "NAME=VALUE", "", "set a parameter of the model; may be repeated [its defaults]", "Simulation", true},

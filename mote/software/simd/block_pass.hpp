@@ -21,6 +21,22 @@ inline constexpr std::size_t kComponents = [] {
   return std::size_t{0};
 }();
 
+/// A model that has code of its own for stretches of particles, in vectors V: Blocks<V>, as graph::TextModel::Blocks.
+template <class M, class V>
+concept MovesBlocks = requires {
+  typename M::template Blocks<V>;
+};
+
+template <class M, class V>
+struct BlocksOf {
+  struct Type {};
+};
+template <class M, class V>
+requires MovesBlocks<M, V>
+struct BlocksOf<M, V> {
+  using Type = typename M::template Blocks<V>;
+};
+
 /// What a filter sums up in passing.
 enum class Estimates {
   kMeans,    ///< means; standard deviations are NaN
@@ -42,6 +58,7 @@ class BlockPass {
   using State = StateOf<M, V>;
   static constexpr std::size_t kLanes = V::kLanes;
   static constexpr std::size_t kD = kComponents<M>;
+  static constexpr bool kMovesBlocks = MovesBlocks<M, V>;
 
   enum class Source { kProposal, kModel, kPrior, kStay };  ///< where new states come from
   enum class Weights { kFresh, kCarried, kKept, kEqual };  ///< fresh and carried take in the rows' likelihood
@@ -89,15 +106,18 @@ class BlockPass {
   struct Desk {
     std::vector<AlignedVector<R>> parents;
     ColumnPointers<R, kD> columns, to;
-    AlignedVector<R> log_weights;                // where nobody asks for them
-    AlignedVector<R> numbers;                    // draws made ahead
-    std::optional<lanes::VectorDraw<R>> source;  // that make them
+    AlignedVector<R> log_weights;                         // where nobody asks for them
+    AlignedVector<R> numbers;                             // draws made ahead
+    std::optional<lanes::VectorDraw<R>> source;           // that make them
+    std::optional<typename BlocksOf<M, V>::Type> blocks;  // of a model that moves blocks
+    AlignedVector<R> likelihoods;                         // log p(y | x) of a block that it has weighed
 
     explicit Desk(std::size_t dimensions)
         : parents(dimensions),
           columns(column_pointers<R, kD>(dimensions)),
           to(column_pointers<R, kD>(dimensions)),
-          log_weights(kBlock) {
+          log_weights(kBlock),
+          likelihoods(kMovesBlocks ? kBlock : 0) {
       for (std::size_t d = 0; d < dimensions; ++d) {
         parents[d].resize(kBlock);
         columns[d] = parents[d].data();
@@ -182,8 +202,11 @@ class BlockPass {
     constexpr bool kWeighs = Scene<kSource, kWeights>::kWeighs;
     const std::size_t n = size_of(b);
     R* const kept = logs == nullptr ? desk.log_weights.data() : logs;
-    const Scene<kSource, kWeights> scene{model_,       proposal_, static_cast<Step>(address.step), rows_, mass, kept, n,
+    const Scene<kSource, kWeights> scene{model_,       proposal_, static_cast<Step>(address.step), rows_,
+                                         mass,         kept,      desk.likelihoods.data(),         n,
                                          desk.columns, desk.to};
+    if constexpr (kMovesBlocks)
+      if (!desk.blocks) desk.blocks.emplace(model_);
     const lanes::DrawPattern& pattern = patterns_[static_cast<std::size_t>(kSource)];
     const std::size_t chunk = chunk_of(pattern);
     V most(kNothing);
@@ -191,7 +214,12 @@ class BlockPass {
     for (std::size_t start = 0; start < n; start += chunk) {
       const std::size_t end = std::min(start + chunk, n);
       desk.make_ready(pattern, end - start);
-      move(scene, start, end, desk.numbers.data());
+      if constexpr (kMovesBlocks) {
+        move_block<kSource>(desk, scene.t, start, end - start);
+        if constexpr (kWeighs) weigh_block(desk, scene.t, start, end - start);
+      } else {
+        move(scene, start, end, desk.numbers.data());
+      }
       if constexpr (kWeighs) most = lanes::max(most, weigh(scene, start, end));
     }
     sum<kWeights>(b, kWeighs ? lanes::largest(most) : R(0), kept, weights, desk.to);
@@ -212,6 +240,24 @@ class BlockPass {
     if constexpr (kSource == Source::kModel) model_.template next<V>(1, state, draw);
     if constexpr (kSource == Source::kPrior) model_.template initial<V>(draw);
     patterns_[static_cast<std::size_t>(kSource)] = draw.pattern();
+  }
+
+  /// Moves `count` particles from `start` on by the model's own code for blocks.
+  template <Source kSource>
+  static void move_block(Desk& desk, Step t, std::size_t start, std::size_t count) {
+    static_assert(std::is_same_v<G, Prior>, "a model that moves blocks has no other proposal");
+    if constexpr (kSource == Source::kPrior)
+      desk.blocks->initial(desk.numbers.data(), desk.to.data(), start, count);
+    else if constexpr (kSource == Source::kStay)
+      for (std::size_t d = 0; d < desk.to.size(); ++d) std::copy_n(desk.columns[d] + start, count, desk.to[d] + start);
+    else
+      desk.blocks->next(t, desk.columns.data(), desk.numbers.data(), desk.to.data(), start, count);
+  }
+
+  /// Log likelihoods of `count` particles from `start` on by the model's own code for blocks.
+  void weigh_block(Desk& desk, Step t, std::size_t start, std::size_t count) const {
+    for (std::size_t k = 0; k < rows_.size(); ++k)
+      desk.blocks->log_likelihood(t, desk.to.data(), rows_[k], desk.likelihoods.data(), start, count, k > 0);
   }
 
   /// Moves particles [start, end).
@@ -264,6 +310,7 @@ class BlockPass {
     std::span<const Row<V>> rows;
     double mass;
     R* logs;                ///< log weights: carried ones are read, new ones written
+    const R* likelihoods;   ///< of a model that has weighed the block
     std::size_t particles;  ///< of the block
     ColumnPointers<R, kD> from, to;
 
@@ -298,10 +345,16 @@ class BlockPass {
     }
     /// Log weights of the particles from j on, as computed: they may be NaN or infinite.
     MOTE_INLINE V log_weight(const M& model_here, std::size_t j) const {
-      const State x = loaded(model_here, to, j);
-      // at least one row, and the first outside the loop: what it computes from parameters alone leaves both loops
-      V l = model_here.template log_likelihood<V>(t, x, rows[0]);
-      for (std::size_t k = 1; k < rows.size(); ++k) l = l + model_here.template log_likelihood<V>(t, x, rows[k]);
+      V l(0);
+      State x;
+      if constexpr (kMovesBlocks) {
+        l = V::load(likelihoods + j);
+      } else {
+        x = loaded(model_here, to, j);
+        // at least one row, and the first outside the loop: what it computes from parameters alone leaves both loops
+        l = model_here.template log_likelihood<V>(t, x, rows[0]);
+        for (std::size_t k = 1; k < rows.size(); ++k) l = l + model_here.template log_likelihood<V>(t, x, rows[k]);
+      }
       if constexpr (kSource == Source::kProposal && !std::is_same_v<G, Prior>) {
         const State before = loaded(model_here, from, j);
         l = usable_weights(l) + usable_weights(model_here.template log_transition<V>(t, x, before) -
