@@ -113,9 +113,11 @@ void Bench::build() {
   write_rtl_library(folder);
   write_text(folder + "bench.sv", bench_module("bench", circuits_, folder));
   write_text(folder + "driver.cpp", driver(circuits_));
-  for (std::size_t c = 0; c < circuits_.size(); ++c)
+  for (std::size_t c = 0; c < circuits_.size(); ++c) {
+    for (const Source& source : circuits_[c].sources) write_text(folder + source.name + ".sv", source.text);
     for (const Memory& memory : circuits_[c].memories)
       write_text(folder + memory_file("u" + std::to_string(c), memory), memory.text());
+  }
   std::string make = "OPT_FAST=-O1 OPT_SLOW=-O0 OPT_GLOBAL=-O1";
   if (on_path("ccache")) make += " OBJCACHE=ccache";
   run_tool("verilator", "verilator",

@@ -45,6 +45,12 @@ void append_format(std::vector<Parameter>& parameters, const std::string& name, 
 /// Nearest and Saturate.
 void append_finish(std::vector<Parameter>& parameters, const Finish& finish);
 
+/// A module that was generated for its user: its name and its SystemVerilog.
+struct Source {
+  std::string name;
+  std::string text;
+};
+
 /// An instance to be. Every module has the clock clk_i; one word a clock goes in and, `latency` clocks later, out.
 struct Circuit {
   std::string module;
@@ -54,6 +60,7 @@ struct Circuit {
   int latency = 0;
   bool reset = false;  ///< it has state, and rst_ni sets it to its beginning
   std::vector<Memory> memories = {};
+  std::vector<Source> sources = {};  ///< modules that it needs beside the library's
 };
 
 /// The name of the file of an instance's table: <instance>.<parameter>.hex, in lower case.

@@ -39,6 +39,7 @@ module mote_piecewise #(
   localparam int Product = Logic ? (DeltaBits > 2 ? $clog2(DeltaBits) : 1) : 2;
   localparam int SlopeWidth = Degree == 1 ? C1Width : (C1Width > C2Width ? C1Width : C2Width) + 1;
   localparam int SumWidth = (C0Width > SlopeWidth ? C0Width : SlopeWidth) + 1;
+  localparam int ResultWidth = SumWidth - Guard + 1;
   localparam int WordWidth = C0Width + C1Width + (Degree == 1 ? 0 : C2Width);
   localparam int Known = (Regions > 1 ? 3 : 0) + 2 + Degree * (Product + 1);  // clocks from u to the sum
 
@@ -80,9 +81,10 @@ module mote_piecewise #(
       assign address = u[UWidth-1-:SegmentBits];
     end
   end else begin : gen_octaves
+    localparam int ShiftBits = RegionBits + 2;
     localparam int Field = UWidth - 1 + SegmentBits + DeltaBits;  // with zeros enough behind
     logic [RegionBits-1:0] region, region_q, region_qq;
-    logic [RegionBits+1:0] shift;
+    logic [ShiftBits-1:0] shift;
     logic [UWidth-1:0] u_q, coarse_q, fine;
     logic [1:0] fine_q;
     logic [Field-1:0] field;
@@ -90,7 +92,7 @@ module mote_piecewise #(
       region = '0;
       for (int r = 1; r < Regions; r++) if (u[Bottom+r-1]) region = RegionBits'(r);
     end
-    assign shift = (RegionBits + 2)'(UWidth - Bottom) - (region_q == '0 ? (RegionBits + 2)'(1) : (RegionBits + 2)'(region_q));
+    assign shift = ShiftBits'(UWidth - Bottom) - (region_q == '0 ? ShiftBits'(1) : ShiftBits'(region_q));
     assign fine  = coarse_q << fine_q;
     assign field = {fine[UWidth-2:0], {(SegmentBits + DeltaBits) {1'b0}}};
     logic unused_bits;
@@ -99,7 +101,7 @@ module mote_piecewise #(
       region_q <= region;
       u_q <= u;
       region_qq <= region_q;
-      coarse_q <= u_q << {shift[RegionBits+1:2], 2'b00};
+      coarse_q <= u_q << {shift[ShiftBits-1:2], 2'b00};
       fine_q <= shift[1:0];
       place <= field[Field-SegmentBits-1-:DeltaBits];
     end
@@ -207,7 +209,7 @@ module mote_piecewise #(
   // Rounding, the sign of an odd function, saturation.
   logic negative;
   logic signed [SumWidth-Guard-1:0] kept;
-  logic signed [SumWidth-Guard:0] result;
+  logic signed [ResultWidth-1:0] result;
   logic [YWidth-1:0] y;
   logic unused_guard;
   assign unused_guard = ^sum_q[Guard-1:0];
@@ -226,9 +228,9 @@ module mote_piecewise #(
     assign unused_side = side;
     assign negative = 1'b0;
   end
-  assign result = negative ? -(SumWidth - Guard + 1)'(kept) : (SumWidth - Guard + 1)'(kept);
+  assign result = negative ? -(ResultWidth'(kept)) : ResultWidth'(kept);
   mote_resize #(
-      .InWidth(SumWidth - Guard + 1),
+      .InWidth(ResultWidth),
       .InFraction(0),
       .OutSigned(YSigned),
       .OutWidth(YWidth),

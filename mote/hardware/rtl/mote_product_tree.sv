@@ -18,7 +18,7 @@ module mote_product_tree #(
   localparam int Whole = AWidth + BWidth;
 
   if (Depth == 1 && BWidth == 1) begin : gen_bit
-    always_ff @(posedge clk_i) p_o <= !b_i[0] ? '0 : Signed ? -Whole'(a_i) : Whole'(a_i);
+    always_ff @(posedge clk_i) p_o <= !b_i[0] ? '0 : Signed ? -(Whole'(a_i)) : Whole'(a_i);
   end else if (Depth == 1) begin : gen_pair
     logic signed [Whole-1:0] low, high;
     assign low  = b_i[0] ? Whole'(a_i) : '0;
