@@ -7,10 +7,6 @@ namespace mote::hardware {
 namespace {
 
 /// Cosine and sine of (place - 1/2) quarter turns, place in [0, 1).
-struct Pair {
-  Signal cosine, sine;
-};
-
 Pair in_the_quarter(Sketch& sketch, const Signal& place, int fraction, Form form) {
   const Format result{true, 1, fraction};
   const auto angle = [](double p) { return (p - 0.5) * kPi / 2; };
@@ -59,6 +55,15 @@ Compound angle_of(Sketch& sketch, const Signal& a, const Signal& b, const Format
 
 }  // namespace
 
+Pair turned_by_quarters(Sketch& sketch, const Pair& pair, const Signal& quarter, const Format& y) {
+  const Signal swap = sketch.bits(quarter, 0, 1);
+  const Signal down = sketch.bits(quarter, 1, 1);
+  const Signal left = sketch.bits(sketch.sum(quarter, sketch.constant({false, 1, 0}, 1), {false, 3, 0}), 1, 1);
+  const Signal first = sketch.select(swap, pair.sine, pair.cosine);
+  const Signal second = sketch.select(swap, pair.cosine, pair.sine);
+  return {sketch.negate_if(left, sketch.convert(first, y), y), sketch.negate_if(down, sketch.convert(second, y), y)};
+}
+
 Compound cosine_and_sine(const Format& x, const Format& y, const FunctionOptions& options) {
   Sketch sketch(function_name("cosine_and_sine", {x, y}, options), options.multiplier);
   const int fraction = y.fraction + 2;
@@ -70,14 +75,9 @@ Compound cosine_and_sine(const Format& x, const Format& y, const FunctionOptions
   const Signal ahead = sketch.op(eighth, turn, phase, sketch.constant(turn, 0.125));
   const Signal place = sketch.bits(ahead, 0, fraction + 1, fraction + 1);
   const Signal quarter = sketch.bits(ahead, fraction + 1, 2);
-  const auto [cosine, sine] = in_the_quarter(sketch, place, fraction, options.form);
-  const Signal swap = sketch.bits(quarter, 0, 1);
-  const Signal down = sketch.bits(quarter, 1, 1);
-  const Signal left = sketch.bits(sketch.sum(quarter, sketch.constant({false, 1, 0}, 1), {false, 3, 0}), 1, 1);
-  const Signal first = sketch.select(swap, sine, cosine);
-  const Signal second = sketch.select(swap, cosine, sine);
-  sketch.output("cos_o", sketch.negate_if(left, sketch.convert(first, y), y));
-  sketch.output("sin_o", sketch.negate_if(down, sketch.convert(second, y), y));
+  const Pair whole = turned_by_quarters(sketch, in_the_quarter(sketch, place, fraction, options.form), quarter, y);
+  sketch.output("cos_o", whole.cosine);
+  sketch.output("sin_o", whole.sine);
   return sketch.done();
 }
 

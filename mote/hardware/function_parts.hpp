@@ -50,4 +50,12 @@ struct Rotation {
   Rotated of(Sketch& sketch, const Signal& x, const Signal& y, const Signal& z) const;
 };
 
+/// The two coordinates of a point on a circle.
+struct Pair {
+  Signal cosine, sine;
+};
+
+/// A point turned by 0 to 3 quarters of the circle, in the format y.
+Pair turned_by_quarters(Sketch& sketch, const Pair& pair, const Signal& quarter, const Format& y);
+
 }  // namespace mote::hardware

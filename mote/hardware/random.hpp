@@ -1,6 +1,7 @@
 #pragma once
 /// Random numbers made of uniform bits by one table each: normal numbers and logarithms of uniform ones.
 
+#include "mote/hardware/compound.hpp"
 #include "mote/hardware/piecewise.hpp"
 
 namespace mote::hardware {
@@ -35,5 +36,17 @@ Piecewise log_uniform_unit(int fraction, Multiplier multiplier = Multiplier::kDs
 
 /// What a log-uniform unit stands for at the value of x in kPlainBits.
 double log_uniform_of(double x);
+
+/// Two independent standard normal numbers from two words, by the method of Box and Muller with CORDIC:
+///
+///   (z_0, z_1) = r (cos 2 pi v, sin 2 pi v),   r = sqrt(-2 log u)
+///
+/// r is one table whose segments shrink towards u = 0 and u = 1: u = (m + 1/2) / 2^32 or, where the first word is
+/// negative, 1 - |m| / 2^32. shape   inputs: kSignedBits (for u), kPlainBits (for v, counted from an eighth of a turn
+/// below 0); outputs z0_o, z1_o: s3.fraction, |z| <= 6.8 error   below a step of z source  Box & Muller 1958
+Compound box_muller(int fraction, Multiplier multiplier = Multiplier::kDsp);
+
+/// r of the value of the first word.
+double radius_of(double x);
 
 }  // namespace mote::hardware
