@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "mote/app/terminal/outside.hpp"
+#include "mote/base/outside.hpp"
 
 namespace mote {
 

@@ -1,4 +1,4 @@
-#include "mote/app/terminal/outside.hpp"
+#include "mote/base/outside.hpp"
 
 #include <cerrno>
 #include <cstdio>

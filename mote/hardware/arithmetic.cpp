@@ -1,0 +1,78 @@
+#include "mote/hardware/arithmetic.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace mote::hardware {
+namespace {
+
+/// Does mote_add need its second stage?
+bool refined(const Finish& finish, int fraction, const Format& y) {
+  return finish.overflow == Overflow::kSaturate || (finish.rounding == Rounding::kNearest && fraction > y.fraction);
+}
+
+std::vector<Parameter> operands(const Format& a, const Format& b, const Format& y) {
+  std::vector<Parameter> parameters;
+  append_format(parameters, "A", a);
+  append_format(parameters, "B", b);
+  append_format(parameters, "Y", y);
+  return parameters;
+}
+
+}  // namespace
+
+Circuit Sum::circuit() const {
+  auto parameters = operands(a, b, y);
+  parameters.push_back(parameter("Subtract", subtract));
+  append_finish(parameters, finish);
+  const int latency = refined(finish, std::max(a.fraction, b.fraction), y) ? 2 : 1;
+  return {"mote_add", parameters, {port("a_i", a), port("b_i", b)}, {port("y_o", y)}, latency};
+}
+
+Circuit Product::circuit() const {
+  auto parameters = operands(a, b, y);
+  append_finish(parameters, finish);
+  parameters.push_back(parameter("Logic", multiplier == Multiplier::kLogic));
+  const int latency = 2 + product_latency(multiplier, b.sign ? b.width() : b.width() + 1);
+  return {"mote_multiply", parameters, {port("a_i", a), port("b_i", b)}, {port("y_o", y)}, latency};
+}
+
+int SignedDigits::count() const { return std::popcount(plus) + std::popcount(minus); }
+
+int SignedDigits::width() const { return std::max(1, static_cast<int>(std::bit_width(plus | minus))); }
+
+SignedDigits signed_digits(Word number) {
+  SignedDigits digits;
+  for (int place = 0; number != 0; ++place, number >>= 1) {
+    if ((number & 1) == 0) continue;
+    const bool minus = (number & 3) == 3;
+    (minus ? digits.minus : digits.plus) |= std::uint64_t{1} << place;
+    number += minus ? 1 : -1;
+  }
+  return digits;
+}
+
+Circuit ConstantProduct::circuit() const {
+  const SignedDigits digits = signed_digits(constant);
+  const int depth = std::max(1, ceil_log2(static_cast<std::uint64_t>(std::max(1, digits.count()))));
+  std::vector<Parameter> parameters;
+  append_format(parameters, "A", a);
+  parameters.push_back(parameter("CWidth", digits.width()));
+  parameters.push_back(parameter("CFraction", constant_fraction));
+  parameters.push_back(parameter("Plus", digits.width(), digits.plus));
+  parameters.push_back(parameter("Minus", digits.width(), digits.minus));
+  parameters.push_back(parameter("Depth", depth));
+  append_format(parameters, "Y", y);
+  append_finish(parameters, finish);
+  return {"mote_multiply_constant", parameters, {port("a_i", a)}, {port("y_o", y)}, 1 + depth};
+}
+
+ConstantWord constant_word(double value, int bits) {
+  int exponent = 0;
+  std::frexp(value, &exponent);
+  const int fraction = bits - exponent;
+  return {static_cast<Word>(std::nearbyint(std::ldexp(value, fraction))), fraction};
+}
+
+}  // namespace mote::hardware

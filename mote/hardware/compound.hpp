@@ -1,0 +1,68 @@
+#pragma once
+/// Operators made of operators: a pipeline whose paths are balanced by delays, as SystemVerilog and as a golden twin.
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mote/hardware/circuit.hpp"
+
+namespace mote::hardware {
+
+/// A wire of a compound: the output `port` of one of its operators.
+struct Wire {
+  std::size_t node = 0;
+  std::size_t port = 0;
+};
+
+/// A pipeline under construction, and an operator once its outputs are named.
+///
+/// Every operator starts as soon as its last operand is there; earlier operands wait in delays, which wires share. So
+/// is the latency from inputs to outputs the same on all paths, and one row a clock goes through. cost    the twin: one
+/// pass over the columns for each operator
+class Compound {
+ public:
+  /// shape   name: of the SystemVerilog module, so unique in a design
+  explicit Compound(std::string name) : name_(std::move(name)) {}
+
+  Wire input(const std::string& name, const Format& format);
+  /// A number that never changes, as a word of a format.
+  Wire constant(const Format& format, Word word);
+  /// An operator's output wires are those of its circuit, in order; the first is returned.
+  template <Operator O>
+  Wire add(const O& op, const std::vector<Wire>& operands) {
+    return append(
+        op.circuit(), [op](Columns in, Results out) { op.compute(in, out); }, operands);
+  }
+  void output(const std::string& name, const Format& format, Wire wire);
+
+  void compute(Columns in, Results out) const;
+  Circuit circuit() const;
+
+ private:
+  using Twin = std::function<void(Columns, Results)>;
+  struct Node {
+    Circuit circuit;  ///< an input and a constant have no module, one output and no twin
+    Twin twin;
+    std::vector<Wire> operands;
+    int ready = 0;       ///< the clock after which its outputs are there
+    bool fixed = false;  ///< a constant
+    Word word = 0;
+  };
+  struct Output {
+    Port port;
+    Wire wire;
+  };
+
+  Wire append(const Circuit& circuit, Twin twin, const std::vector<Wire>& operands);
+  int latency() const;
+  std::string text() const;
+
+  std::string name_;
+  std::vector<Node> nodes_;
+  std::vector<std::size_t> inputs_;
+  std::vector<Output> outputs_;
+};
+
+}  // namespace mote::hardware

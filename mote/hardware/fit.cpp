@@ -1,0 +1,187 @@
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "mote/base/numbers.hpp"
+#include "mote/base/refusal.hpp"
+#include "mote/hardware/piecewise.hpp"
+
+namespace mote::hardware {
+namespace {
+
+using Function = std::function<double(double)>;
+
+/// Coefficients in d of the parabola or line through three or two Chebyshev points of [-1/2, 1/2].
+std::array<double, 3> interpolant(const std::function<double(double)>& at, int degree) {
+  if (degree == 1) {
+    const double node = 0.5 * std::cos(kPi / 4);
+    const double low = at(-node);
+    const double high = at(node);
+    return {(low + high) / 2, (high - low) / (2 * node), 0};
+  }
+  const double node = 0.5 * std::cos(kPi / 6);
+  const double low = at(-node);
+  const double middle = at(0);
+  const double high = at(node);
+  return {middle, (high - low) / (2 * node), (high - 2 * middle + low) / (2 * node * node)};
+}
+
+std::int32_t coefficient(double value) {
+  constexpr double kMost = std::numeric_limits<std::int32_t>::max() / 2;
+  return static_cast<std::int32_t>(std::nearbyint(std::clamp(value, -kMost, kMost)));
+}
+
+}  // namespace
+
+/// The segments of a shape, as the numbers that fall into them.
+class PiecewiseFit {
+ public:
+  PiecewiseFit(const Function& function, const PiecewiseShape& shape)
+      : function_(&function), shape_(shape), unit_(shape, std::vector<Piecewise::Coefficients>(shape.entries())) {}
+
+  /// A segment: u in [first, first + length), in steps of x; a length below 1 may hold no number.
+  struct Segment {
+    double first, length;
+    bool negative;
+  };
+
+  Segment segment_of(std::size_t entry) const {
+    const std::size_t segment = entry & ((std::size_t{1} << shape_.segment_bits) - 1);
+    const std::size_t row = entry >> shape_.segment_bits;
+    const std::size_t rows = std::size_t{1} << unit_.region_bits_;
+    const int region = static_cast<int>(row % rows);
+    const double start = region == 0 ? 0 : std::ldexp(1.0, shape_.bottom + region - 1);
+    const double length = std::ldexp(1.0, shape_.bottom + std::max(0, region - 1) - shape_.segment_bits);
+    return {start + static_cast<double>(segment) * length, length, unit_.sides_ && row >= rows};
+  }
+
+  /// The value in steps of y at a place that need not be a number of the format.
+  double wanted(double u, bool negative) const {
+    double x = negative ? shape_.centre - u : shape_.centre + u;
+    if (shape_.fold == Fold::kPlain) x = u + static_cast<double>(shape_.x.least());
+    if (shape_.fold == Fold::kMirrored) x = u;
+    x = std::clamp(x, static_cast<double>(shape_.x.least()), static_cast<double>(shape_.x.greatest()));
+    const double steps = std::ldexp((*function_)(x * shape_.x.step()), shape_.y.fraction);
+    // where y saturates the polynomial may run on, so that no segment has a kink; infinities end somewhere
+    const double reach = std::ldexp(4.0, shape_.y.width());
+    return std::isnan(steps) ? 0.0 : std::clamp(steps, -reach, reach);
+  }
+
+  Piecewise fitted() {
+    for (std::size_t entry = 0; entry < unit_.table_.size(); ++entry)
+      unit_.table_[entry] = coefficients(segment_of(entry));
+    return unit_;
+  }
+
+  /// The greatest error at the numbers of a segment, in steps of y.
+  static double error_in(const Piecewise& unit, const PiecewiseFit& fit, const Segment& segment, std::uint64_t points) {
+    double worst = 0;
+    for_numbers(segment, fit.unit_.u_greatest_, points, [&](std::uint64_t u) {
+      const auto cell = unit.cell_of(u, segment.negative);
+      const auto& c = unit.table_[cell.entry];
+      const Word slope = c.c1 + ((c.c2 * cell.delta) >> unit.delta_bits_);
+      const Word kept = (c.c0 + ((slope * cell.delta) >> unit.delta_bits_)) >> fit.shape_.guard;
+      const Format& y = fit.shape_.y;
+      const double want = std::clamp(fit.wanted(static_cast<double>(u), segment.negative),
+                                     static_cast<double>(y.least()), static_cast<double>(y.greatest()));
+      worst = std::max(worst, std::abs(static_cast<double>(std::clamp(kept, y.least(), y.greatest())) - want));
+    });
+    return worst;
+  }
+
+ private:
+  /// Calls visit(u) for up to `points` numbers of the segment, the first and the last among them.
+  template <class Visit>
+  static void for_numbers(const Segment& segment, std::uint64_t greatest, std::uint64_t points, Visit visit) {
+    const auto first = static_cast<std::uint64_t>(std::ceil(segment.first));
+    const auto end = std::min(static_cast<std::uint64_t>(std::ceil(segment.first + segment.length)), greatest + 1);
+    if (first >= end) return;
+    const std::uint64_t count = end - first;
+    if (count <= points) {
+      for (std::uint64_t u = first; u < end; ++u) visit(u);
+      return;
+    }
+    for (std::uint64_t i = 0; i < points; ++i) visit(first + i * (count - 1) / (points - 1));
+  }
+
+  /// The polynomial of a segment; its constant halves the range of what rounding and the other two leave over.
+  Piecewise::Coefficients coefficients(const Segment& segment) const {
+    // what truncation of the place in long segments hides is centred
+    const double hidden = std::max(0.0, (std::ldexp(segment.length, -unit_.delta_bits_) - 1) / 2);
+    const double unit = std::ldexp(1.0, shape_.guard);
+    const auto at = [&](double d) {
+      return wanted(segment.first + (d + 0.5) * segment.length + hidden, segment.negative) * unit;
+    };
+    const auto c = interpolant(at, shape_.degree);
+    Piecewise::Coefficients chosen{0, coefficient(c[1]), coefficient(c[2])};
+    double least = std::numeric_limits<double>::infinity();
+    double most = -least;
+    for_numbers(segment, unit_.u_greatest_, 33, [&](std::uint64_t u) {
+      const Word delta = unit_.cell_of(u, segment.negative).delta;
+      const Word slope = chosen.c1 + ((chosen.c2 * delta) >> unit_.delta_bits_);
+      const double left = wanted(static_cast<double>(u), segment.negative) * unit -
+                          static_cast<double>((slope * delta) >> unit_.delta_bits_);
+      least = std::min(least, left);
+      most = std::max(most, left);
+    });
+    if (least > most) return {0, 0, 0};
+    chosen.c0 = coefficient((least + most) / 2) + (1 << (shape_.guard - 1));
+    return chosen;
+  }
+
+  const Function* function_;
+  PiecewiseShape shape_;
+  Piecewise unit_;
+};
+
+Piecewise fit_shape(const Function& function, const PiecewiseShape& shape) {
+  return PiecewiseFit(function, shape).fitted();
+}
+
+namespace {
+
+/// Does every segment keep to the goal at so many numbers? Stops at the first that does not.
+bool good_enough(const Piecewise& unit, const Function& function, double steps, std::uint64_t points) {
+  const PiecewiseFit fit(function, unit.shape());
+  for (std::size_t entry = 0; entry < unit.shape().entries(); ++entry)
+    if (PiecewiseFit::error_in(unit, fit, fit.segment_of(entry), points) > steps) return false;
+  return true;
+}
+
+/// The shape of the fewest segments for one bottom, if it is smaller than `best`.
+void improve(std::optional<Piecewise>& best, const Function& function, PiecewiseShape shape, const FitGoal& goal) {
+  for (shape.segment_bits = 1; shape.segment_bits < shape.u_bits() && shape.segment_bits <= 12; ++shape.segment_bits) {
+    const std::size_t limit = best ? best->shape().entries() - 1 : goal.most_entries;
+    if (shape.entries() > limit) return;
+    const Piecewise unit = fit_shape(function, shape);
+    if (good_enough(unit, function, goal.steps, 65) && good_enough(unit, function, goal.steps, 4097)) {
+      best = unit;
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+Piecewise fit_piecewise(const Function& function, const Format& x, const Format& y, Fold fold, int centre,
+                        const FitGoal& goal) {
+  PiecewiseShape shape{x, y, fold, centre, 0, 1, goal.degree, 4, goal.multiplier};
+  std::optional<Piecewise> best;
+  for (shape.bottom = shape.u_bits(); shape.bottom >= 1; --shape.bottom) improve(best, function, shape, goal);
+  if (best) return *best;
+  throw Refusal(ExitCode::kWrongUse, {"piecewise polynomial", "x " + x.name() + ", y " + y.name(),
+                                      "an error of at most " + std::to_string(goal.steps) + " steps with at most " +
+                                          std::to_string(goal.most_entries) + " segments",
+                                      "more", "Give y fewer fraction bits or allow a greater error."});
+}
+
+double worst_error(const Piecewise& unit, const Function& function, std::uint64_t points) {
+  const PiecewiseFit fit(function, unit.shape());
+  double worst = 0;
+  for (std::size_t entry = 0; entry < unit.shape().entries(); ++entry)
+    worst = std::max(worst, PiecewiseFit::error_in(unit, fit, fit.segment_of(entry), points));
+  return worst;
+}
+
+}  // namespace mote::hardware

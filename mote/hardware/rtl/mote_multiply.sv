@@ -1,0 +1,66 @@
+// mote_multiply: the product of two numbers in any formats, in a third.
+//
+// equation  y = a * b
+// formats   a, b, y: signed or not, Width bits, Fraction of them after the point. One DSP48E1 takes 25 x 18 signed bits
+// range     the product is exact before it is rounded; mote_resize says how y is rounded, saturates or wraps
+// timing    latency 2 + mote_product's (2 by DSP blocks, ceil(log2 of b's bits) by Logic); one product a clock
+// twin      Product in mote/hardware/arithmetic.hpp
+module mote_multiply #(
+    parameter bit ASigned = 1'b1,
+    parameter int AWidth = 18,
+    parameter int AFraction = 10,
+    parameter bit BSigned = 1'b1,
+    parameter int BWidth = 18,
+    parameter int BFraction = 10,
+    parameter bit YSigned = 1'b1,
+    parameter int YWidth = 18,
+    parameter int YFraction = 10,
+    parameter bit Nearest = 1'b1,
+    parameter bit Saturate = 1'b1,
+    parameter bit Logic = 1'b0
+) (
+    input  logic              clk_i,
+    input  logic [AWidth-1:0] a_i,
+    input  logic [BWidth-1:0] b_i,
+    output logic [YWidth-1:0] y_o
+);
+
+  localparam int AWide = ASigned ? AWidth : AWidth + 1;
+  localparam int BWide = BSigned ? BWidth : BWidth + 1;
+
+  logic [AWidth-1:0] a_q;
+  logic [BWidth-1:0] b_q;
+  logic signed [AWide+BWide-1:0] p;
+
+  always_ff @(posedge clk_i) begin
+    a_q <= a_i;
+    b_q <= b_i;
+  end
+
+  mote_product #(
+      .AWidth(AWide),
+      .BWidth(BWide),
+      .Logic (Logic)
+  ) product_u (
+      .clk_i,
+      .a_i(AWide'(a_q)),
+      .b_i(BWide'(b_q)),
+      .p_o(p)
+  );
+
+  mote_finish #(
+      .InWidth(AWide + BWide),
+      .InFraction(AFraction + BFraction),
+      .OutSigned(YSigned),
+      .OutWidth(YWidth),
+      .OutFraction(YFraction),
+      .Nearest(Nearest),
+      .Saturate(Saturate),
+      .InRegister(1'b0)
+  ) finish_u (
+      .clk_i,
+      .x_i(p),
+      .y_o
+  );
+
+endmodule

@@ -1,0 +1,24 @@
+#pragma once
+/// The hand-written SystemVerilog of mote/hardware/rtl, which the program carries with it.
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace mote::hardware {
+
+/// A file of the library: <module>.sv holds that module and no other.
+struct RtlFile {
+  std::string_view name;
+  std::string_view text;
+};
+
+/// Every file of the library, in the order of the alphabet.
+std::span<const RtlFile> rtl_library();
+
+/// Writes the library into a folder that exists.
+///
+/// error   Refusal (kCannotWrite)
+void write_rtl_library(const std::string& folder);
+
+}  // namespace mote::hardware
