@@ -8,6 +8,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -55,6 +56,34 @@ void dress_like(int descriptor, const struct stat& old) {
   fchmod(descriptor, old.st_mode & 07777U);
 }
 
+bool are_same_file(int descriptor, const std::string& path) {
+  struct stat one {};
+  struct stat other {};
+  return fstat(descriptor, &one) == 0 && lstat(path.c_str(), &other) == 0 && one.st_dev == other.st_dev &&
+         one.st_ino == other.st_ino;
+}
+
+/// The name that outputs for a target pass through, one at a time, each locked by its writer.
+std::string shared_name(const std::string& target) { return target + ".mote.part"; }
+
+/// A name that no other living process takes for an output.
+std::string own_name(const std::string& target) { return fmt::format("{}.{}.part", target, getpid()); }
+
+/// Takes the file of a shared name away if its lock is free: its writer was killed. While the lock is held here nobody
+/// else takes the name from the file. With LOCK_NB a living writer's is left, without it waited for.
+///
+/// error   false and errno where there is something that may not be locked or removed, or is not to be waited for
+bool remove_orphan(const std::string& name, int no_wait) {
+  const int descriptor = ::open(name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) return errno == ENOENT;
+  bool is_free = flock(descriptor, LOCK_EX | no_wait) == 0;
+  if (is_free && are_same_file(descriptor, name)) is_free = unlink(name.c_str()) == 0;
+  const int error = errno;
+  close(descriptor);
+  errno = error;
+  return is_free;
+}
+
 }  // namespace
 
 Output::Output(std::string path) : path_(std::move(path)), target_(path_), stream_(stream_named(path_)) {
@@ -81,23 +110,31 @@ void Output::open_aside() {
   struct stat old {};
   const bool exists = stat(target_.c_str(), &old) == 0;
   if (exists && access(target_.c_str(), W_OK) != 0) fail(errno);
-  const std::string folder = fs::path(target_).parent_path().string();
-  int descriptor = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
-  nameless_ = descriptor >= 0 && access("/proc/self/fd", X_OK) == 0;
-  const std::string aside = fmt::format("{}.{}.part", target_, getpid());
-  if (!nameless_) {
-    if (descriptor >= 0) close(descriptor);
-    descriptor = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  int descriptor = open_nameless();
+  nameless_ = descriptor >= 0;
+  if (nameless_) {
+    remove_orphan(shared_name(target_), LOCK_NB);
+  } else {
+    descriptor = ::open(own_name(target_).c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0) fail(errno);
   }
-  aside_ = aside;
+  aside_ = nameless_ ? shared_name(target_) : own_name(target_);
   if (exists) dress_like(descriptor, old);
   file_ = fdopen(descriptor, "wb");
 }
 
+int Output::open_nameless() const {
+  const std::string folder = fs::path(target_).parent_path().string();
+  const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+  if (descriptor < 0) return -1;
+  if (access("/proc/self/fd", X_OK) == 0 && flock(descriptor, LOCK_EX) == 0) return descriptor;
+  close(descriptor);
+  return -1;
+}
+
 Output::~Output() {
+  if (!aside_.empty() && !nameless_) unlink(aside_.c_str());  // while it is locked: then the name is another's
   if (file_ != nullptr) std::fclose(file_);
-  if (!aside_.empty() && !nameless_) unlink(aside_.c_str());
 }
 
 void Output::write(std::string_view text) {
@@ -116,13 +153,23 @@ void Output::finish() {
 void Output::commit() {
   finish();
   if (aside_.empty()) return;
-  if (nameless_) {
-    const std::string self = fmt::format("/proc/self/fd/{}", fileno(file_));
-    if (linkat(AT_FDCWD, self.c_str(), AT_FDCWD, aside_.c_str(), AT_SYMLINK_FOLLOW) != 0) fail(errno);
-    nameless_ = false;
-  }
+  if (nameless_) give_name();
   if (std::rename(aside_.c_str(), target_.c_str()) != 0) fail(errno);
   aside_.clear();
+  if (file_ == nullptr) return;
+  std::fclose(file_);  // and with it its lock
+  file_ = nullptr;
+}
+
+void Output::give_name() {
+  const std::string self = fmt::format("/proc/self/fd/{}", fileno(file_));
+  while (linkat(AT_FDCWD, self.c_str(), AT_FDCWD, aside_.c_str(), AT_SYMLINK_FOLLOW) != 0) {
+    if (errno != EEXIST) fail(errno);
+    if (remove_orphan(aside_, 0)) continue;
+    if (errno == EINTR || aside_ == own_name(target_)) fail(errno);
+    aside_ = own_name(target_);  // the shared one is somebody else's for good
+  }
+  nameless_ = false;
 }
 
 void Output::commit_to_disk() {

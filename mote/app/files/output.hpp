@@ -10,9 +10,17 @@
 
 namespace mote {
 
-/// One output: a file is written without a name in its folder (under a name of its own, *.part, where the file system
-/// cannot do that) and gets its name by commit(); dropped before, even by SIGKILL, it leaves nothing. Something that is
-/// no regular file (a pipe, a device) and the streams of the program ("-" is standard output) are written in place.
+/// One output: a file is written without a name in its folder and gets its name by commit(); dropped before, even by
+/// SIGKILL, it leaves nothing. Something that is no regular file (a pipe, a device) and the streams of the program ("-"
+/// is standard output) are written in place.
+///
+/// Linux cannot let a file without a name replace one that has it, so commit() first links it as NAME.mote.part, then
+/// renames that. A SIGKILL in between, some microseconds, leaves NAME.mote.part. A writer holds a lock on its file as
+/// long as it lives, so a NAME.mote.part whose lock is free is an orphan: the next output for NAME removes it when it
+/// is opened, or at the latest when it needs the name itself. A living writer's is waited for, then.
+///
+/// Where the file system has no files without names or no locks, an output is NAME.PID.part until commit(), and SIGKILL
+/// leaves that for good.
 ///
 /// error   Refusal (kCannotWrite) naming the path, on opening, writing (disk full) or naming;
 ///         Refusal (kInterrupted) when a signal ends a wait for a reader
@@ -36,6 +44,9 @@ class Output {
  private:
   void open_in_place();
   void open_aside();
+  /// A locked file without a name beside the target; -1 where there cannot be one.
+  int open_nameless() const;
+  void give_name();
   [[noreturn]] void fail(int error) const;
 
   std::string path_, target_, aside_;

@@ -1,11 +1,17 @@
 #include "mote/app/files/output.hpp"
 
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "mote/base/refusal.hpp"
@@ -27,6 +33,13 @@ class Outputs : public ::testing::Test {
   }
   std::ptrdiff_t files() const {
     return std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator());
+  }
+
+  /// A file as a writer leaves it between its name aside and its own: locked as long as the descriptor is open.
+  int begun(const std::string& name) const {
+    const int descriptor = open(path(name).c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+    EXPECT_EQ(flock(descriptor, LOCK_EX), 0);
+    return descriptor;
   }
 
   ScratchFolder folder_;
@@ -53,6 +66,65 @@ TEST_F(Outputs, LeaveNothingWithoutCommit) {
   }
   EXPECT_EQ(text_of("a"), "old");
   EXPECT_EQ(files(), 1);
+}
+
+TEST_F(Outputs, RemoveWhatAKilledWriterLeft) {
+  close(begun("a.mote.part"));
+  Output output(path("a"));
+  EXPECT_EQ(files(), 0) << "when they are opened";
+  close(begun("a.mote.part"));
+  output.write("text");
+  output.commit();
+  EXPECT_EQ(text_of("a"), "text") << "and when they need the name";
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(Outputs, LeaveALivingWriterItsFile) {
+  const int writer = begun("a.mote.part");
+  Output output(path("a"));
+  EXPECT_EQ(files(), 1);
+  output.write("ours");
+  std::thread living([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    EXPECT_FALSE(fs::exists(path("a"))) << "the other waits";
+    fs::rename(path("a.mote.part"), path("a"));
+    close(writer);
+  });
+  output.commit();
+  living.join();
+  EXPECT_EQ(text_of("a"), "ours") << "the later one";
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(Outputs, TakeAnotherNameWhereTheirsIsNoOrphan) {
+  fs::create_directory(path("a.mote.part"));
+  Output output(path("a"));
+  output.write("text");
+  output.commit();
+  EXPECT_EQ(text_of("a"), "text");
+  EXPECT_EQ(files(), 2) << "what they have not made stays";
+}
+
+// A writer that does nothing but commit is killed until that has hit it between its two names some times.
+TEST_F(Outputs, KilledAtAnyTimeLeaveNothingThatTheNextDoesNotRemove) {
+  int orphans = 0;
+  for (int k = 0; k < 1000 && orphans < 3; ++k) {
+    const pid_t writer = fork();
+    ASSERT_GE(writer, 0);
+    while (writer == 0) {
+      Output output(path("a"));
+      output.write("text");
+      output.commit();
+      unlink(path("a").c_str());  // where a name is replaced, file systems take their time after the window
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(2000 + 7 * k));
+    kill(writer, SIGKILL);
+    waitpid(writer, nullptr, 0);
+    orphans += fs::exists(path("a.mote.part")) ? 1 : 0;
+    const Output next(path("a"));
+    ASSERT_TRUE(files() == 0 || (files() == 1 && text_of("a") == "text")) << files() << " files";
+  }
+  EXPECT_EQ(orphans, 3) << "otherwise little was tried";
 }
 
 TEST_F(Outputs, AreCommittedTogether) {
