@@ -1,0 +1,46 @@
+// The IMH filter of local_level_propose.sv, for co-simulation.
+module imh_local_level (
+    input  logic               clk_i,
+    input  logic               rst_ni,
+    input  logic               start_i,
+    input  logic        [12:0] n_i,
+    input  logic        [12:0] draws_i,
+    input  logic        [12:0] burn_in_i,
+    input  logic        [15:0] steps_i,
+    input  logic               chain_mean_i,
+    output logic               busy_o,
+    input  logic               obs_valid_i,
+    output logic               obs_ready_o,
+    input  logic        [17:0] obs_i,
+    output logic               kept_valid_o,
+    output logic        [9:0]  kept_slot_o,
+    output logic        [17:0] kept_state_o,
+    output logic               est_valid_o,
+    input  logic               est_ready_i,
+    output logic               est_last_o,
+    output logic        [26:0] est_mean_o,
+    output logic        [35:0] est_sum_o,
+    output logic signed [11:0] est_scale_o,
+    output logic        [12:0] est_accepted_o
+);
+  logic [15:0] t;
+  logic signed [17:0] observed, parent, proposed, to_weigh;
+  logic [1:0][31:0] words;
+  logic signed [23:0] log_weight;
+  logic unused_propose_valid, unused_weigh_valid;
+  mote_imh #(
+      .Dims(1), .ObsWidth(18), .DrawWords(2), .ProposeLatency(4), .WeighLatency(4)
+  ) u_imh (
+      .clk_i, .rst_ni, .start_i, .n_i, .draws_i, .burn_in_i, .steps_i, .chain_mean_i, .busy_o,
+      .obs_valid_i, .obs_ready_o, .obs_i,
+      .t_o(t), .obs_o(observed),
+      .propose_valid_o(unused_propose_valid), .propose_state_o(parent), .propose_words_o(words),
+      .propose_state_i(proposed),
+      .weigh_valid_o(unused_weigh_valid), .weigh_state_o(to_weigh), .weigh_log_i(log_weight),
+      .kept_valid_o, .kept_slot_o, .kept_state_o,
+      .est_valid_o, .est_ready_i, .est_last_o, .est_mean_o, .est_sum_o, .est_scale_o, .est_accepted_o);
+  local_level_propose u_propose (
+      .clk_i, .first_i(t == 16'd1), .state_i(parent), .words_i(words), .state_o(proposed));
+  local_level_weigh u_weigh (
+      .clk_i, .observed_i(observed), .state_i(to_weigh), .log_weight_o(log_weight));
+endmodule

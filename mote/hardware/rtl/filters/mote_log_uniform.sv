@@ -1,0 +1,46 @@
+// What a Metropolis chain compares by: minus the binary logarithm of a uniform word.
+//
+//   drop_o = -log2(word_i / 2^32) = (z + 1) - log2(1 + m),   word_i = 2^(31 - z) (1 + m)
+//   log2(1 + m) = m + c(m), c by a table over the 7 leading bits of m
+//
+// formats  drop_o: unsigned, 6 integer and 10 fraction bits; below 33, so it cannot overflow. Word 0 counts as 2^-1
+// error    below 2^-8 octave
+// timing   latency 5, initiation interval 1
+// golden   mote/hardware/filters/log_uniform.hpp
+module mote_log_uniform #(
+    parameter Table = "log2.hex"
+) (
+    input  logic        clk_i,
+    input  logic [31:0] word_i,
+    output logic [15:0] drop_o
+);
+  logic [6:0] table_rom[128];
+  initial $readmemh(Table, table_rom);
+
+  function automatic logic [5:0] leading_zeros(input logic [31:0] word);
+    logic [5:0] zeros;
+    zeros = 6'd32;
+    for (int i = 0; i < 32; i++) if (word[i]) zeros = 6'(31 - i);
+    return zeros;
+  endfunction
+
+  logic [5:0]  zeros_q, zeros2_q, zeros3_q, zeros4_q;
+  logic [31:0] word_q, coarse_q;
+  logic [9:0]  mantissa_q;
+  logic [10:0] log_q;
+  logic [31:0] fine;
+  assign fine = coarse_q << zeros2_q[2:0];
+  always_ff @(posedge clk_i) begin
+    zeros_q    <= leading_zeros(word_i);
+    word_q     <= word_i;
+    zeros2_q   <= zeros_q;
+    coarse_q   <= word_q << {zeros_q[5:3], 3'b0};
+    zeros3_q   <= zeros2_q;
+    mantissa_q <= fine[30:21];
+    zeros4_q   <= zeros3_q;
+    log_q      <= 11'(mantissa_q) + 11'(table_rom[mantissa_q[9:3]]);
+    drop_o     <= {zeros4_q + 6'd1, 10'b0} - 16'(log_q);
+  end
+  logic unused_fine;
+  assign unused_fine = ^{fine[31], fine[20:0]};
+endmodule
