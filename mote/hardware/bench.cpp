@@ -102,6 +102,16 @@ std::string bench_module(const std::string& name, const std::vector<Circuit>& ci
   return text + "  logic unused_reset;\n  assign unused_reset = rst_ni;\nendmodule\n";
 }
 
+void write_bench(const std::string& folder, const std::string& name, const std::vector<Circuit>& circuits) {
+  write_rtl_library(folder);
+  write_text(folder + name + ".sv", bench_module(name, circuits, folder));
+  for (std::size_t c = 0; c < circuits.size(); ++c) {
+    for (const Source& source : circuits[c].sources) write_text(folder + source.name + ".sv", source.text);
+    for (const Memory& memory : circuits[c].memories)
+      write_text(folder + memory_file("u" + std::to_string(c), memory), memory.text());
+  }
+}
+
 Bench::Bench(std::vector<Circuit> circuits) : circuits_(std::move(circuits)) { build(); }
 
 Bench::~Bench() {
@@ -110,14 +120,8 @@ Bench::~Bench() {
 
 void Bench::build() {
   const std::string folder = folder_.path().string() + "/";
-  write_rtl_library(folder);
-  write_text(folder + "bench.sv", bench_module("bench", circuits_, folder));
+  write_bench(folder, "bench", circuits_);
   write_text(folder + "driver.cpp", driver(circuits_));
-  for (std::size_t c = 0; c < circuits_.size(); ++c) {
-    for (const Source& source : circuits_[c].sources) write_text(folder + source.name + ".sv", source.text);
-    for (const Memory& memory : circuits_[c].memories)
-      write_text(folder + memory_file("u" + std::to_string(c), memory), memory.text());
-  }
   std::string make = "OPT_FAST=-O1 OPT_SLOW=-O0 OPT_GLOBAL=-O1";
   if (on_path("ccache")) make += " OBJCACHE=ccache";
   run_tool("verilator", "verilator",

@@ -43,6 +43,12 @@ class Bench {
 /// The SystemVerilog of a module with the circuits side by side: ports i<c>_<p> and o<c>_<p>, circuit c, port p.
 std::string bench_module(const std::string& name, const std::vector<Circuit>& circuits, const std::string& folder);
 
+/// Writes what that module needs into a folder: itself, the library, generated modules, tables.
+///
+/// shape   folder: with its closing slash
+/// error   Refusal (kCannotWrite)
+void write_bench(const std::string& folder, const std::string& name, const std::vector<Circuit>& circuits);
+
 /// The words of an operator's twin.
 template <Operator O>
 Table computed(const O& op, const Table& inputs, std::size_t rows) {

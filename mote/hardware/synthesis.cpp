@@ -1,0 +1,120 @@
+#include "mote/hardware/synthesis.hpp"
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+#include "mote/base/refusal.hpp"
+#include "mote/base/scratch_folder.hpp"
+#include "mote/hardware/bench.hpp"
+#include "mote/hardware/tools.hpp"
+
+namespace mote::hardware {
+namespace {
+
+/// The number of cells of each kind in what `stat` printed last.
+std::map<std::string, int> cells_of(const std::string& printed) {
+  std::istringstream lines(printed.substr(std::min(printed.size(), printed.rfind("Number of cells:"))));
+  std::map<std::string, int> cells;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string kind;
+    int count = 0;
+    if (words >> kind >> count) cells[kind] = count;
+  }
+  return cells;
+}
+
+int total(const std::map<std::string, int>& cells, const std::vector<std::string>& beginnings) {
+  int sum = 0;
+  for (const auto& [kind, count] : cells)
+    for (const std::string& beginning : beginnings)
+      if (kind.starts_with(beginning)) sum += count;
+  return sum;
+}
+
+/// LUT-RAM and shift registers as the look-up tables that they occupy.
+int memory_luts(const std::map<std::string, int>& cells) {
+  static const std::map<std::string, int> sizes{{"SRL16E", 1},    {"SRLC16E", 1},  {"SRLC32E", 1},  {"RAM32X1S", 1},
+                                                {"RAM64X1S", 1},  {"RAM32X1D", 2}, {"RAM64X1D", 2}, {"RAM128X1S", 2},
+                                                {"RAM128X1D", 4}, {"RAM32M", 4},   {"RAM64M", 4},   {"RAM256X1S", 4}};
+  int sum = 0;
+  for (const auto& [kind, luts] : sizes)
+    if (const auto found = cells.find(kind); found != cells.end()) sum += luts * found->second;
+  return sum;
+}
+
+/// The cells that a script leaves of the modules in a folder.
+std::map<std::string, int> synthesised(const std::string& folder, const std::string& script) {
+  run_tool(
+      "yosys", "yosys",
+      {"-q", "-p", "read_verilog -sv -defer " + folder + "*.sv; " + script + "; tee -o " + folder + "stat.txt stat"});
+  return cells_of(read_text(folder + "stat.txt"));
+}
+
+/// Shift registers around a circuit, so that its ports need two pins: a chain of input bits, and a parity of registered
+/// outputs.
+std::string surroundings(const Circuit& circuit) {
+  std::string ports;
+  int in = 0;
+  int out = 0;
+  for (std::size_t p = 0; p < circuit.inputs.size(); ++p) {
+    ports += ", .i0_" + std::to_string(p) + "(in_q[" + std::to_string(in) +
+             " +: " + std::to_string(circuit.inputs[p].width) + "])";
+    in += circuit.inputs[p].width;
+  }
+  for (std::size_t p = 0; p < circuit.outputs.size(); ++p) {
+    ports += ", .o0_" + std::to_string(p) + "(out[" + std::to_string(out) +
+             " +: " + std::to_string(circuit.outputs[p].width) + "])";
+    out += circuit.outputs[p].width;
+  }
+  const std::string in_top = std::to_string(std::max(0, in - 1));
+  const std::string out_top = std::to_string(out - 1);
+  const std::string shifted = in > 1 ? "{in_q[" + std::to_string(in - 2) + ":0], bit_i}" : "bit_i";
+  return "module around (input logic clk_i, input logic rst_ni, input logic bit_i, output logic bit_o);\n"
+         "  logic [" +
+         in_top + ":0] in_q;\n  logic [" + out_top +
+         ":0] out, out_q, chain_q;\n"
+         "  core core_u (.clk_i(clk_i), .rst_ni(rst_ni)" +
+         ports +
+         ");\n"
+         "  always_ff @(posedge clk_i) begin\n    in_q <= " +
+         shifted +
+         ";\n    out_q <= out;\n"
+         "    chain_q <= {chain_q, 1'b0} ^ out_q;\n    bit_o <= chain_q[" +
+         out_top + "];\n  end\nendmodule\n";
+}
+
+double clock_of(const std::string& log) {
+  const std::string key = "Max frequency for clock";
+  const auto line = log.rfind(key);
+  const auto colon = log.find("': ", line);
+  if (line == std::string::npos || colon == std::string::npos)
+    throw Refusal(ExitCode::kOutsideTool, {"nextpnr-ice40", "", "a clock rate", "none", "Look at its messages."});
+  return std::stod(log.substr(colon + 3));
+}
+
+}  // namespace
+
+Area xc7_area(const Circuit& circuit) {
+  const ScratchFolder scratch;
+  const std::string folder = scratch.path().string() + "/";
+  write_bench(folder, "core", {circuit});
+  const auto cells = synthesised(folder, "synth_xilinx -family xc7 -flatten -noiopad -top core");
+  return {total(cells, {"LUT", "INV"}) + memory_luts(cells), total(cells, {"FDRE", "FDSE", "FDCE", "FDPE"}),
+          total(cells, {"DSP48E1"}), total(cells, {"RAMB18E1"}) + 2 * total(cells, {"RAMB36E1"})};
+}
+
+Routed ice40_routed(const Circuit& circuit, int seed) {
+  const ScratchFolder scratch;
+  const std::string folder = scratch.path().string() + "/";
+  write_bench(folder, "core", {circuit});
+  write_text(folder + "around.sv", surroundings(circuit));
+  const auto cells = synthesised(folder, "synth_ice40 -top around -json " + folder + "netlist.json");
+  run_tool("nextpnr-ice40", "nextpnr-ice40",
+           {"--hx8k", "--package", "ct256", "--seed", std::to_string(seed), "--freq", "150", "--timing-allow-fail",
+            "--json", folder + "netlist.json", "--log", folder + "log.txt", "-q"});
+  return {total(cells, {"SB_LUT4"}), clock_of(read_text(folder + "log.txt"))};
+}
+
+}  // namespace mote::hardware

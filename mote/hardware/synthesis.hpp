@@ -1,0 +1,35 @@
+#pragma once
+/// What a circuit costs: area by Yosys, clock rate by place and route.
+
+#include <string>
+#include <vector>
+
+#include "mote/hardware/circuit.hpp"
+
+namespace mote::hardware {
+
+/// Cells of a Xilinx 7-series device after synthesis, without input and output buffers.
+struct Area {
+  int lut = 0;  ///< all look-up tables, those that hold memory or shift registers too
+  int ff = 0;
+  int dsp = 0;     ///< DSP48E1
+  int bram18 = 0;  ///< RAMB18E1 + 2 RAMB36E1
+};
+
+/// Synthesises a circuit by itself (Yosys, synth_xilinx -family xc7).
+///
+/// error   Refusal (kOutsideTool) when yosys is missing or fails
+/// cost    1 to 20 s
+Area xc7_area(const Circuit& circuit);
+
+/// A circuit placed and routed on an iCE40 HX8K (no DSP blocks: products are logic), between shift registers.
+struct Routed {
+  int luts = 0;  ///< look-up tables of the circuit and its surroundings
+  double mhz = 0;
+};
+
+/// error   Refusal (kOutsideTool) when yosys or nextpnr-ice40 is missing or fails (a circuit that is too large)
+/// cost    5 to 60 s
+Routed ice40_routed(const Circuit& circuit, int seed = 1);
+
+}  // namespace mote::hardware

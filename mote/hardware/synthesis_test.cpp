@@ -1,0 +1,39 @@
+#include "mote/hardware/synthesis.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mote/hardware/arithmetic.hpp"
+#include "mote/hardware/choice.hpp"
+#include "mote/hardware/random.hpp"
+#include "mote/hardware/uniform.hpp"
+
+namespace mote::hardware {
+namespace {
+
+// referee  by hand: a register of 18 bits behind 18 multiplexers
+TEST(Area, CountsWhatASelectionNeeds) {
+  const Area area = xc7_area(Select{{true, 7, 10}}.circuit());
+  EXPECT_EQ(area.lut, 18);
+  EXPECT_EQ(area.ff, 18);
+  EXPECT_EQ(area.dsp + area.bram18, 0);
+}
+
+TEST(Area, AProductIsOneBlockOrLogic) {
+  const Product product{{true, 7, 17}, {true, 7, 10}, {true, 7, 10}};
+  Product logic = product;
+  logic.multiplier = Multiplier::kLogic;
+  EXPECT_EQ(xc7_area(product.circuit()).dsp, 1);
+  const Area made = xc7_area(logic.circuit());
+  EXPECT_EQ(made.dsp, 0);
+  EXPECT_GT(made.lut, 200);
+}
+
+TEST(Routed, AUniformSourceIsFasterThanAWideSum) {
+  const Routed uniform = ice40_routed(UniformSource{seeded_tausworthe(1, 0)}.circuit());
+  const Routed sum = ice40_routed(Sum{{true, 30, 30}, {true, 30, 30}, {true, 30, 30}}.circuit());
+  EXPECT_GT(uniform.mhz, 150);
+  EXPECT_GT(uniform.mhz, 1.5 * sum.mhz);
+}
+
+}  // namespace
+}  // namespace mote::hardware
