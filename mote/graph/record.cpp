@@ -78,10 +78,15 @@ std::vector<double> schedule_at(Step t, const Trace& now, const Trace& first, co
 
 }  // namespace
 
-std::vector<Id> Recorded::outputs() const {
+std::vector<Id> Recorded::filter_outputs() const {
   std::vector<Id> all = initial;
   all.insert(all.end(), next.begin(), next.end());
   all.push_back(log_likelihood);
+  return all;
+}
+
+std::vector<Id> Recorded::outputs() const {
+  std::vector<Id> all = filter_outputs();
   if (log_transition) all.push_back(*log_transition);
   return all;
 }

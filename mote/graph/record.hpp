@@ -31,6 +31,8 @@ struct Recorded {
 
   /// initial, next, log_likelihood and log_transition one after the other.
   std::vector<Id> outputs() const;
+  /// What a filter computes: initial, next and log_likelihood.
+  std::vector<Id> filter_outputs() const;
   /// What an input is called: "x", "x before", "y", "normal 0".
   std::string name_of(const Vertex& input) const;
 };

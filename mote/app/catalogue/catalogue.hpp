@@ -12,6 +12,7 @@
 #include "mote/engine/estimand.hpp"
 #include "mote/engine/plan.hpp"
 #include "mote/filter/filter.hpp"
+#include "mote/graph/record.hpp"
 #include "mote/referee/solver.hpp"
 
 namespace mote {
@@ -34,6 +35,8 @@ class CatalogueModel {
   virtual std::vector<ValueSource> sources() const = 0;
   /// A filter on the plan's engine.
   virtual std::unique_ptr<Filter> filter(const Plan& plan, const std::string& where) const = 0;
+  /// The model as a graph.
+  virtual graph::Recorded recorded() const = 0;
   /// What solves the model's recordings exactly; nullptr: nothing known.
   virtual std::unique_ptr<referee::Solver> solver() const = 0;
   /// Draws a recording step by step, in no more memory than a step needs.

@@ -31,6 +31,7 @@ class CatalogueModelOf final : public CatalogueModel {
         return make_reference_filter(model_, plan, where);
     }
   }
+  graph::Recorded recorded() const override { return graph::record(model_); }
   std::unique_ptr<referee::Solver> solver() const override { return referee::solver_of(model_); }
 
   using CatalogueModel::simulate;

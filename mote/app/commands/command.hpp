@@ -81,6 +81,7 @@ Command models_command();
 Command simulate_command();
 Command simulate_cluster_command();
 Command compare_command();
+Command graph_command();
 Command bench_command();
 Command reproduce_command();
 
