@@ -74,9 +74,6 @@ void check_stages(const Plan& plan, const std::string& where) {
 void check_cast(const Plan& plan, const std::string& where) {
   require(pipeline_has(plan), where, "--engine mpi --proposers --weighers", "--filter sisr, imh or auxiliary",
           fmt::format("--filter {}", name_of(plan.filter)), "Pass --engine reference, or leave it out.");
-  require(plan.chain.burn_in.has_value() || plan.filter == FilterKind::kSisr, where,
-          "--engine mpi --proposers --weighers", "--burn-in with a number",
-          "--burn-in auto, which waits for all weights", "Pass --burn-in 0.");
   if (plan.team == nullptr) return;
   const Cast cast = cast_of(plan);
   require(

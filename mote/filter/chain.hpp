@@ -23,6 +23,13 @@ struct ChainLayout {
   std::size_t proposals() const { return draws + chains * burn_in; }
 };
 
+/// A stretch of particles or proposals, [first, last).
+struct Stretch {
+  std::size_t first = 0, last = 0;
+  std::size_t size() const { return last - first; }
+  bool has(std::size_t i) const { return first <= i && i < last; }
+};
+
 /// n cut into parts: part k is [begin(k), begin(k + 1)), and the first n mod parts of them are one longer.
 struct Cut {
   std::size_t length, longer;

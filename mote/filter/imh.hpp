@@ -149,11 +149,15 @@ class MetropolisFilter final : public Filter {
     prepare_parents(t, y);
     propose_stretch(t, y, {0, layout_.proposals()});
     if (options_.burn_in) return;
-    const LogSum sum = log_sum_exp(log_weights_);
-    if (!std::isfinite(sum.largest)) return;
-    const double mean = std::exp(sum.log_sum - sum.largest) / static_cast<double>(layout_.draws);
-    layout_.burn_in = burn_in_for(mean, 1, kBurnInDistance, layout_.draws);
+    layout_.burn_in = static_cast<std::size_t>(runner_->agreed([&] { return burn_in_by_weights(); }));
     propose_stretch(t, y, {layout_.draws, layout_.proposals()});
+  }
+
+  std::size_t burn_in_by_weights() const {
+    const LogSum sum = log_sum_exp(log_weights_);
+    if (!std::isfinite(sum.largest)) return 0;
+    const double mean = std::exp(sum.log_sum - sum.largest) / static_cast<double>(layout_.draws);
+    return burn_in_for(mean, 1, kBurnInDistance, layout_.draws);
   }
 
   /// Runs the stages over the proposals of a stretch; those before it stand. Draws are addressed by proposal.

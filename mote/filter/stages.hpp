@@ -1,18 +1,13 @@
 #pragma once
 /// The stages of a step, apart from who runs them: propose, weigh, and let the chains take what is weighed.
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
 #include "mote/filter/chain.hpp"
 
 namespace mote {
-
-/// A stretch of particles or proposals, [first, last).
-struct Stretch {
-  std::size_t first = 0, last = 0;
-  std::size_t size() const { return last - first; }
-};
 
 /// Pieces of memory, in an order of their own.
 using Memory = std::vector<std::span<std::byte>>;
@@ -45,6 +40,8 @@ class StageRunner {
   virtual std::size_t proposers() const = 0;
   /// Lines that it can have taken side by side.
   virtual std::size_t lines() const = 0;
+  /// A number that follows from what all stages have found, wherever that lies: the same for all who run the stages.
+  virtual std::uint64_t agreed(const std::function<std::uint64_t()>& find) { return find(); }
 
  protected:
   StageRunner() = default;

@@ -1,8 +1,9 @@
 #pragma once
 /// Share: which particles of a filter a process has.
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
-#include <numeric>
 #include <vector>
 
 #include "mote/base/draws.hpp"
@@ -42,17 +43,25 @@ inline std::vector<std::size_t> begins_of_shares(std::size_t particles, std::siz
 
 /// The blocks of a step that a rank makes, and those whose sums it leaves to others: where several make a block the
 /// lowest counts it.
+///
+/// cost    O(blocks + ranks), if ranks share no more than the outer blocks of their stretches
 struct BlockShare {
   std::vector<std::size_t> made, left_out;
 
-  /// From whether rank r makes block b.
-  template <class Makes>
-  BlockShare(std::size_t blocks, std::size_t rank, const Makes& makes) {
+  /// From the stretches of particles that each rank works on, a few: stretches_of(r).
+  template <class Stretches>
+  BlockShare(std::size_t blocks, std::size_t rank, const Stretches& stretches_of) {
+    std::vector<std::size_t> lowest(blocks, rank + 1);  // of the ranks up to this one that make the block
+    std::vector<bool> makes(blocks);
+    for (std::size_t r = 0; r <= rank; ++r)
+      for (const Stretch& stretch : stretches_of(r))
+        for (std::size_t b = stretch.first / kBlock; stretch.size() > 0 && b * kBlock < stretch.last; ++b) {
+          lowest[b] = std::min(lowest[b], r);
+          if (r == rank) makes[b] = true;
+        }
     for (std::size_t b = 0; b < blocks; ++b) {
-      if (makes(rank, b)) made.push_back(b);
-      std::size_t lowest = 0;
-      while (lowest < rank && !makes(lowest, b)) ++lowest;
-      if (lowest < rank || !makes(rank, b)) left_out.push_back(b);
+      if (makes[b]) made.push_back(b);
+      if (lowest[b] != rank) left_out.push_back(b);
     }
   }
 };
@@ -77,14 +86,18 @@ struct ChainShare {
     for (std::size_t r = 0; r <= ranks; ++r) all.push_back(Cut(n, layout.chains).begin(chains.begin(r)));
     return all;
   }
-  /// Whether a chain of rank r visits proposal j.
-  bool visits(std::size_t r, std::size_t j) const { return visits(r, j, j + 1); }
-  /// Whether a chain of rank r visits one of the proposals [from, to).
-  bool visits(std::size_t r, std::size_t from, std::size_t to) const {
+  /// The proposals that the chains of rank r visit: those that may be kept, those that are burnt in by.
+  std::array<Stretch, 2> visited(std::size_t r) const {
     const Cut drawn(layout.draws, layout.chains);
-    const auto meets = [&](std::size_t begin, std::size_t end) { return std::max(begin, from) < std::min(end, to); };
-    return meets(drawn.begin(chains.begin(r)), drawn.begin(chains.begin(r + 1))) ||
-           meets(layout.draws + chains.begin(r) * layout.burn_in, layout.draws + chains.begin(r + 1) * layout.burn_in);
+    const std::size_t begin = chains.begin(r);
+    const std::size_t end = chains.begin(r + 1);
+    return {{{drawn.begin(begin), drawn.begin(end)},
+             {layout.draws + begin * layout.burn_in, layout.draws + end * layout.burn_in}}};
+  }
+  /// Whether a chain of rank r visits proposal j.
+  bool visits(std::size_t r, std::size_t j) const {
+    const auto [drawn, burning] = visited(r);
+    return drawn.has(j) || burning.has(j);
   }
 };
 

@@ -82,6 +82,7 @@ TEST_F(Mpi, GivesTheBytesOfTheReferenceByStages) {
            {5, "--filter sisr --proposers 2 --weighers 2 --resampler residual"},
            {4, "--filter imh --proposers 1 --weighers 2 --burn-in 30"},
            {8, "--filter imh --proposers 3 --weighers 2 --chains 3 --draws 3000"},
+           {5, "--filter imh --proposers 1 --weighers 2 --chains 2 --burn-in auto"},
            {5, "--filter auxiliary --proposers 1 --weighers 2 --chains 2 --parents permuted --chain-start weighted"}}) {
     const std::string run =
         "run ungm --data d.csv -n 2500 --estimate 'q0.9(x)' --out e.csv --dump-particles p.csv " + c.options;
@@ -122,10 +123,14 @@ TEST_F(Mpi, RefusesOnceForAllRanks) {
            {run + "--filter imh --proposers 2", 2,
             "4 ranks: 2 that propose, 1 that weigh, 1 with a chain, got 3. Start"},
            {run + "--filter sqmc --weighers 1", 2, "--weighers: expected --filter sisr, imh or auxiliary, got"},
-           {run + "--filter imh --burn-in auto --weighers 1", 2, "--burn-in auto, which waits for all weights"},
            {run + "--filter imh --data far.csv --weighers 1", 4, "t = 1: the filter collapsed"},
            {run + "--checkpoint-every 3", 2, "--checkpoint-every: expected --checkpoint FILE beside it"},
            {run + "--checkpoint far.csv", 3, "far.csv: expected a checkpoint of mote run, got a file of another kind"},
+           {run + "--nope", 2, "mote run: expected an option of mote run, got \"--nope\""},
+           {"run local-level --data d.csv --engine mpi -n", 2, "mote run: --particles: expected N, got nothing"},
+           {"nope", 2, "mote: COMMAND: expected one of models"},
+           {"simulate ungm --steps 0 --out e.csv", 2, "mote simulate: --steps: expected an integer from 1"},
+           {"run local-level --data d.csv --out e.csv -n 0", 2, "mote run: --particles: expected an integer from 1"},
            {run + "--proposal nope", 2, "--proposal: expected one of the model's proposals"},
            {run + "--data no.csv", 3, "no.csv: expected a file that can be read"},
            {run + "--data far.csv", 4, "t = 1: the filter collapsed"},
@@ -238,6 +243,26 @@ TEST_F(Mpi, ASignalToOneRankLeavesACheckpoint) {
   EXPECT_EQ(times(end.err, "goes on from c"), 1) << end.err;
   EXPECT_EQ(Job(scratch_, 2, steps_by_team({})).end().code, 0);
   EXPECT_EQ(scratch_.read("e.csv"), scratch_.read("whole.csv"));
+}
+
+// Groups, and stages on ranks of their own, compute as the reference engine does, whose bits any processor gives: their
+// checkpoints fit it.
+TEST_F(Mpi, NotesTheInstructionSetWhereBitsDependOnIt) {
+  prepare_steps("");
+  const auto noted = [&](int ranks, const std::vector<std::string>& options) {
+    Job job(scratch_, ranks, steps_by_team(options));
+    EXPECT_TRUE(Job::has_written(scratch_, "c"));
+    job.signal_rank(0, SIGKILL, std::chrono::milliseconds(0));
+    job.end();
+    const std::string kept = scratch_.read("c");
+    std::filesystem::remove(scratch_.path() / "c");
+    const std::string name = "instruction set";
+    return kept.substr(kept.find(name) + name.size() + sizeof(std::uint64_t), 3);  // after the length of the value
+  };
+  EXPECT_EQ(noted(2, {"--filter", "distributed", "--groups", "4"}), "any");
+  EXPECT_EQ(noted(3, {"--filter", "imh", "--proposers", "1"}), "any");
+  const std::string of_vectors = noted(2, {});
+  EXPECT_TRUE(of_vectors == "SSE" || of_vectors == "AVX") << of_vectors;
 }
 
 // The limit is on the ranks' files, and above what MPI itself has in shared memory.

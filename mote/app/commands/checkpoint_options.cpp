@@ -8,6 +8,7 @@
 #include "mote/app/catalogue/text_entry.hpp"
 #include "mote/app/commands/plan_options.hpp"
 #include "mote/app/files/text.hpp"
+#include "mote/engine/cast.hpp"
 #include "mote/engine/team.hpp"
 #include "mote/software/simd/isa.hpp"
 
@@ -35,9 +36,14 @@ std::string summed_up(const Recording& recording) {
   return fmt::format("{} steps, checksum {:08x}", recording.steps.size(), checksum.checksum());
 }
 
+/// Whether the bits depend on how long the processor's vectors are: those of the SIMD engine do, alone or on a team.
+bool is_on_vectors(const Plan& plan) {
+  const bool on_team = engine_of(plan) == Engine::kMpi && !has_cast(plan) && plan.filter != FilterKind::kDistributed;
+  return engine_of(plan) == Engine::kSimd || on_team;
+}
+
 std::string instruction_set(const Plan& plan) {
-  if (engine_of(plan) == Engine::kReference || engine_of(plan) == Engine::kPipeline) return "any";
-  return std::string(name_of(best_isa().value_or(Isa::kSse4)));
+  return is_on_vectors(plan) ? std::string(name_of(best_isa().value_or(Isa::kSse4))) : "any";
 }
 
 RunFacts facts_of(const Arguments& arguments, const Plan& plan, const Job& job) {

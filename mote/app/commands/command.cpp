@@ -143,6 +143,12 @@ int refused(const std::string& sentence, ExitCode code) {
   return static_cast<int>(code);
 }
 
+/// The same, but for wrong use, which all that mpirun started by the same words come to.
+int refused_once(const Refusal& refusal, const std::function<bool()>& speaks) {
+  const bool said = refusal.code() != ExitCode::kWrongUse || speaks();
+  return refused(said ? refusal.what() : "", refusal.code());
+}
+
 int refused_output(int error) {
   return refused(Refusal(ExitCode::kCannotWrite, {"standard output", "", "an output that can be written",
                                                   std::strerror(error), "Check where it leads."})
@@ -156,12 +162,13 @@ int with_printed(int code) {
   return refused_output(errno);
 }
 
-int performed(const Bound& bound, const std::string& where, const std::string& command_line) {
+int performed(const Bound& bound, const std::string& where, const std::string& command_line,
+              const std::function<bool()>& speaks) {
   try {
     check_words(bound, where);
     return with_printed(static_cast<int>(bound.command.run(bound.arguments(where, command_line))));
   } catch (const Refusal& refusal) {
-    return refused(refusal.what(), refusal.code());
+    return refused_once(refusal, speaks);
   } catch (const std::bad_alloc&) {
     return refused(where + ": the memory did not suffice. Pass fewer --particles, or less data.", ExitCode::kWrongUse);
   } catch (const std::exception& error) {
@@ -242,7 +249,8 @@ Arguments arguments_from(const std::string& where, const std::vector<OptionSpec>
   return bound.arguments(where, where);
 }
 
-int run_program(int count, char** words, const std::vector<Command>& commands_known) {
+int run_program(int count, char** words, const std::vector<Command>& commands_known,
+                const std::function<bool()>& speaks) {
   occupy_closed_streams();
   let_writes_fail();
   CLI::App program("mote: particle filters, from the model to the machine", "mote");
@@ -277,9 +285,9 @@ int run_program(int count, char** words, const std::vector<Command>& commands_kn
     if (asked() == nullptr) refuse_leftovers(program.remaining(), "mote", {"--help", "--version"});
     if (asked() == nullptr) throw Refusal(ExitCode::kWrongUse, nothing_for("mote", "COMMAND", known));
   } catch (const Refusal& refusal) {
-    return refused(refusal.what(), refusal.code());
+    return refused_once(refusal, speaks);
   }
-  return performed(*asked(), "mote " + asked()->command.name, shell_line(count, words));
+  return performed(*asked(), "mote " + asked()->command.name, shell_line(count, words), speaks);
 }
 
 }  // namespace mote

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "mote/app/terminal/ranks.hpp"
 #include "mote/base/refusal.hpp"
 
 namespace mote {
@@ -93,7 +94,10 @@ Command run_command(std::function<ExitCode(const Arguments&)> team);
 Command track_command(std::function<ExitCode(const Arguments&)> track);
 Command train_command(std::function<ExitCode(const Arguments&)> train);
 
-/// Parses and runs one of the commands: what main() returns.
-int run_program(int count, char** words, const std::vector<Command>& commands_known);
+/// Parses and runs one of the commands: what main() returns. `speaks` is asked whether this process is the one to say
+/// that its words are wrong.
+int run_program(
+    int count, char** words, const std::vector<Command>& commands_known,
+    const std::function<bool()>& speaks = [] { return speaks_for_job(); });
 
 }  // namespace mote

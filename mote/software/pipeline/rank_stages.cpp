@@ -45,6 +45,12 @@ void RankStages::run(const Stages& stages) {
   }
 }
 
+std::uint64_t RankStages::agreed(const std::function<std::uint64_t()>& find) {
+  std::uint64_t number = team_->rank() == 0 ? find() : 0;
+  team_->share(std::as_writable_bytes(std::span(&number, 1)));
+  return number;
+}
+
 /// A block of each line in turn, so that all have something to take early.
 void RankStages::cut(const Stages& stages) {
   const std::size_t length = block_ != 0 ? block_ : message_block(stages.all.size(), cast_);

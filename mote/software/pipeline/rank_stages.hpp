@@ -28,6 +28,8 @@ class RankStages final : public StageRunner {
   void run(const Stages& stages) override;
   std::size_t proposers() const override { return 1; }  // on this rank
   std::size_t lines() const override { return cast_.chains; }
+  /// Found by rank 0, which has everything, and told to the others.
+  std::uint64_t agreed(const std::function<std::uint64_t()>& find) override;
 
  private:
   struct Block {

@@ -82,6 +82,11 @@ TEST(RankedFilters, GiveTheBitsOfTheReference) {
   burnt.chain.burn_in = 37;
   burnt.chain.draws = 1501;
   expect_the_reference(LocalLevel{}, burnt, three);
+  Plan by_weights = plan_of(FilterKind::kImh, 700, 3);
+  by_weights.chain.burn_in.reset();
+  expect_the_reference(Ungm<1>{}, by_weights, three);
+  by_weights.chain.start = ChainStart::kWeighted;
+  expect_the_reference(LocalLevel{}, by_weights, three);
   Plan guided = plan_of(FilterKind::kAuxiliary, 500, 3);
   guided.proposal = "guided";
   guided.precision = Precision::kFloat;
@@ -105,9 +110,11 @@ TEST(RankedFilters, GiveTheBitsOfTheReference) {
 TEST(RankedFilters, CollapseAsTheReference) {
   Recording far = drawn_recording(LocalLevel{}, 6);
   far.steps[2].rows[0].values[0] = 1e300;
-  for (const FilterKind filter : {FilterKind::kSisr, FilterKind::kImh})
+  for (const auto& [filter, burn_in] : std::vector<std::pair<FilterKind, std::optional<std::size_t>>>{
+           {FilterKind::kSisr, 0}, {FilterKind::kImh, 0}, {FilterKind::kImh, std::nullopt}})
     for (const OnCollapse what : {OnCollapse::kKeep, OnCollapse::kReset}) {
       Plan plan = plan_of(filter, 700);
+      plan.chain.burn_in = burn_in;
       plan.on_collapse = what;
       const auto expected = by_reference(LocalLevel{}, plan, far);
       EXPECT_TRUE(expected[2].report.collapsed);
@@ -160,9 +167,6 @@ TEST(RankedFilters, RefuseATeamOfAnotherSize) {
             "Start mpirun -n 8.");
   EXPECT_NE(sentence(plan_of(FilterKind::kSqmc, 100)).find("expected --filter sisr, imh or auxiliary"),
             std::string::npos);
-  Plan automatic = plan_of(FilterKind::kImh, 100);
-  automatic.chain.burn_in.reset();
-  EXPECT_NE(sentence(automatic).find("--burn-in auto, which waits for all weights"), std::string::npos);
 }
 
 TEST(RankStages, CutMessages) {

@@ -46,14 +46,12 @@ class VectorMetropolisFilter final : public Filter {
         layout_{particles, options.draws == 0 ? particles : options.draws, options.chains, options.burn_in.value_or(0)},
         share_(layout_, team),
         blocks_of_set_(blocks_of(particles), share_.rank,
-                       [&](std::size_t r, std::size_t b) {
+                       [&](std::size_t r) {
                          const Share share(particles, share_.ranks, r);
-                         return share.first <= b * kBlock && b * kBlock < share.end();
+                         return std::array{Stretch{share.first, share.end()}};
                        }),
         blocks_of_proposals_(blocks_of(layout_.proposals()), share_.rank,
-                             [&](std::size_t r, std::size_t b) {
-                               return share_.visits(r, b * kBlock, std::min((b + 1) * kBlock, layout_.proposals()));
-                             }),
+                             [&](std::size_t r) { return share_.visited(r); }),
         crew_(threads),
         set_(model.states().size(), particles),
         proposals_(model.states().size(), layout_.proposals()),
