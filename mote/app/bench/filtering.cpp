@@ -20,13 +20,6 @@ constexpr std::uint64_t kRuns = 20;
 constexpr std::uint64_t kManyRuns = 100;  // where a run varies much
 constexpr std::size_t kShared = 100'000;  // particles of a judged run on several threads
 
-/// Root mean square of the difference.
-double rms_between(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
-  return std::sqrt(sum / static_cast<double>(a.size()));
-}
-
 // claim    the means are those of a bootstrap filter of 1000 particles
 // referee  the exact posterior mean on a grid
 // design   20 runs, seeds 1 to 20, on one recording: the mean RMSE of the reference engine over 1000 runs is kExpected,

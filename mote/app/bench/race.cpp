@@ -4,6 +4,7 @@
 #include <cmath>
 #include <ctime>
 #include <exception>
+#include <limits>
 
 #include <fmt/format.h>
 #include <malloc.h>
@@ -122,8 +123,8 @@ void race_at(const Task& task, const std::vector<const Entrant*>& present, std::
 
 /// The numbers of particles to race at, each once.
 std::vector<std::size_t> raced_at(const Task& task, std::vector<std::size_t> asked) {
-  if (task.most_particles == 0) return asked;
-  for (std::size_t& n : asked) n = std::min(n, task.most_particles);
+  const std::size_t most = task.most_particles == 0 ? std::numeric_limits<std::size_t>::max() : task.most_particles;
+  for (std::size_t& n : asked) n = std::clamp(n, task.least_particles, most);
   asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
   return asked;
 }

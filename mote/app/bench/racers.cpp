@@ -110,6 +110,12 @@ double greatest_between(const std::vector<double>& a, const std::vector<double>&
   return greatest;
 }
 
+double rms_between(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(sum / static_cast<double>(a.size()));
+}
+
 std::vector<double> answer_of(const Entrant& entrant, std::size_t particles, std::uint64_t seed) {
   const auto racer = entrant.make();
   std::vector<double> answer;

@@ -32,6 +32,11 @@ Entrant contender_entrant(const contenders::Description& description, std::share
 /// Greatest difference of two answers, in the units of the states.
 double greatest_between(const std::vector<double>& a, const std::vector<double>& b);
 
+/// Root mean square of the difference.
+///
+/// shape   a, b: (n,), n >= 1
+double rms_between(const std::vector<double>& a, const std::vector<double>& b);
+
 /// The answer of an entrant for a number of particles and a seed.
 std::vector<double> answer_of(const Entrant& entrant, std::size_t particles, std::uint64_t seed);
 

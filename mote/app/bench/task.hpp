@@ -68,6 +68,7 @@ struct Task {
   /// Where a particle costs much: larger numbers of particles that are asked for are brought down to this, and a run is
   /// not repeated within a turn. 0: as many as are asked for.
   std::size_t most_particles = 0;
+  std::size_t least_particles = 1;  ///< smaller numbers of particles that are asked for are brought up to this
 };
 
 /// A task by its name and what it is about; made only when asked for, since making one may draw recordings.

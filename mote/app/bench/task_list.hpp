@@ -11,6 +11,7 @@ Task bearings_task(const TaskEntry& entry, std::size_t threads);
 Task doa_task(const TaskEntry& entry, std::size_t threads);
 Task resample_task(const TaskEntry& entry, std::size_t threads);
 Task threads_task(const TaskEntry& entry, std::size_t threads);
+Task ranks_task(const TaskEntry& entry, std::size_t threads);
 Task pipeline_task(const TaskEntry& entry, std::size_t threads);
 Task computing_pipeline_task(const TaskEntry& entry, std::size_t threads);
 

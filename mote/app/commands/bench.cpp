@@ -76,7 +76,7 @@ Command bench_command() {
           {{.name = "TASK", .meaning = "tasks to run [all]", .required = false, .many = true}},
           {{"-n,--particles", "LIST", "1000,10000,100000", "numbers of particles, separated by commas", "Race"},
            {"--repeats", "R", "11", "rounds in which every contender has a turn, from 1 to 10000", "Race"},
-           {"--threads", "K", "", "most threads of the task threads, from 1 to 1024 [the machine's cores]", "Race"},
+           {"--threads", "K", "", "threads or ranks of the tasks threads (at most) and ranks, from 1 to 1024 [the machine's cores]", "Race"},
            {"--json", "FILE", "", "verdicts, figures and every round as JSON; - is standard output [none]", "Output"},
            {"--report", "FILE", "", "report with a plot for each task, one HTML file [none]", "Output"}},
           run_bench,
