@@ -1,6 +1,7 @@
 #pragma once
 /// From a recorded model to the two pipelines that a filter in hardware asks for, with their golden twins.
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,9 +24,10 @@ struct DatapathOptions {
   std::string prefix = "mote_model";  ///< of the modules' names: <prefix>_propose and <prefix>_weigh
 };
 
-/// A number that comes with a step: a column of its row, a number of the schedule, or a bit "the column was seen".
+/// A number that comes with a step: a column of its row, a number of the schedule, another number that the host computes
+/// from them, or a bit "the columns were seen".
 struct ObservedField {
-  std::string name;  ///< "y", "schedule 0", "y seen"
+  std::string name;  ///< "y", "schedule 0", "v12", "y seen"
   Format format;
   int at = 0;  ///< its first bit in the observation word
 };
@@ -44,6 +46,7 @@ struct Datapath {
   std::vector<ObservedField> observed;  ///< the observation word, from bit 0 on
   int observed_bits = 0;                ///< of the whole word
   double constant = 0;                  ///< octaves: what log2 p(y | x) of a whole row has more
+  std::function<std::vector<std::int64_t>(const Row<double>&, const std::vector<double>&)> host;  ///< see observe()
 
   /// The fields of a step as integers; values that were not seen are 0.
   ///
