@@ -19,6 +19,15 @@ WordStudy::WordStudy(const CatalogueModel& model, const WordStudyDesign& design,
 
 graph::Ranges WordStudy::ranges() const { return graph::ranges(recorded_, seen_, design_.margin); }
 
+hardware::Samples WordStudy::samples() const {
+  constexpr std::size_t kKept = 4096;
+  const std::size_t calls = design_.particles * static_cast<std::size_t>(design_.steps) * scenes_.size();
+  const auto sampling = std::make_shared<hardware::SampledArithmetic>(recorded_, calls / kKept + 1, kKept);
+  hardware::Samples samples{{}, errors(sampling)};
+  samples.calls = sampling->samples().calls;
+  return samples;
+}
+
 double WordStudy::error_ratio(const graph::FixedPoint& point) const {
   const auto fixed = errors(std::make_shared<graph::FixedArithmetic>(recorded_.graph, point));
   double worst = 0;
