@@ -10,6 +10,10 @@
 namespace mote::hardware {
 namespace {
 
+constexpr const char* kFilterInstance = "u_filter";
+constexpr const char* kProposeInstance = "u_propose";
+constexpr const char* kWeighInstance = "u_weigh";
+
 int whole_bytes(int bits) { return (bits + 7) / 8 * 8; }
 int as_int(unsigned number) { return static_cast<int>(number); }
 std::string top_bit(int width) { return std::to_string(width - 1); }
@@ -25,18 +29,21 @@ std::string bit_table(const char* heading, const std::vector<Field>& fields) {
   int at = 0;
   for (const Field& field : fields) {
     const std::string place = std::to_string(at + field.format.width() - 1) + ":" + std::to_string(at);
-    text += "//           " + padded(place, 9) + padded(field.format.name(), 8) + field.name + '\n';
+    text += "//             " + padded(place, 9) + padded(field.format.name(), 8) + field.name + '\n';
     at += field.format.width();
   }
   return text;
 }
 
 template <class Table>
-std::string table_text(int width, const Table& table) {
-  return Memory{"", width, {table.begin(), table.end()}}.text();
+Memory table_of(const char* parameter, int width, const Table& table) {
+  return {parameter, width, {table.begin(), table.end()}};
 }
 
-std::string parameter_lines(const std::vector<Parameter>& parameters) {
+std::string parameter_lines(std::vector<Parameter> parameters, const std::vector<Memory>& tables,
+                            const std::string& folder) {
+  for (const Memory& table : tables)
+    parameters.push_back({table.parameter, "\"" + folder + memory_file(kFilterInstance, table) + "\""});
   std::string text;
   for (const Parameter& one : parameters)
     text += (text.empty() ? "      ." : ",\n      .") + one.name + "(" + one.value + ")";
@@ -74,9 +81,6 @@ EstimateLines estimate_lines(const Architecture& architecture, const Formats& f,
   if (architecture.chain) part("accepted", capacity.at + 1);
   return lines;
 }
-
-constexpr const char* kProposeInstance = "u_propose";
-constexpr const char* kWeighInstance = "u_weigh";
 
 /// The sums of weighted values have to stay within 64 bits of the golden model.
 void refuse_wide_sums(const Formats& f, const Capacity& capacity) {
@@ -140,7 +144,7 @@ Estimate Machine::estimate_in(const std::uint32_t* words) const {
   return estimate;
 }
 
-std::vector<Parameter> Machine::parameters(const std::string& folder) const {
+std::vector<Parameter> Machine::parameters() const {
   const Formats& f = formats();
   std::vector<Parameter> all{parameter("Dims", as_int(f.dims)),
                              parameter("ValueWidth", as_int(f.value_bits)),
@@ -154,16 +158,21 @@ std::vector<Parameter> Machine::parameters(const std::string& folder) const {
                              parameter("WeighLatency", as_int(f.weigh_latency)),
                              parameter("Seed", 64, seed_)};
   for (const Parameter& one : architecture_->parameters(capacity_)) all.push_back(one);
-  all.push_back({"Exp2Table", "\"" + folder + "exp2.hex\""});
-  if (architecture_->chain) all.push_back({"Log2Table", "\"" + folder + "log2.hex\""});
+  return all;
+}
+
+std::vector<Memory> Machine::filter_tables() const {
+  std::vector<Memory> all{table_of("Exp2Table", 16, exp2_table())};
+  if (architecture_->chain) all.push_back(table_of("Log2Table", 8, log2_table()));
   return all;
 }
 
 std::string Machine::sheet() const {
   std::vector<Field> particle;
   for (const Field& state : model_.states) particle.push_back(state);
-  return bit_table("observation, obs_tdata_i", model_.observed) +
-         bit_table("estimate, est_tdata_o", estimate_fields()) + bit_table("particle, set_state_o", particle);
+  return bit_table("formats   observation, obs_tdata_i", model_.observed) +
+         bit_table("          estimate, est_tdata_o", estimate_fields()) +
+         bit_table("          particle, set_state_o", particle);
 }
 
 std::string Machine::top(const std::string& folder) const {
@@ -197,7 +206,7 @@ std::string Machine::top(const std::string& folder) const {
                     {"estimate_wires", estimate.wires},
                     {"estimate_connections", estimate.connections},
                     {"estimate", estimate.together},
-                    {"parameters", parameter_lines(parameters(folder))},
+                    {"parameters", parameter_lines(parameters(), filter_tables(), folder)},
                     {"propose", instantiation(model_.propose, kProposeInstance, folder, model_.propose_connections)},
                     {"weigh", instantiation(model_.weigh, kWeighInstance, folder, model_.weigh_connections)}});
 }
@@ -216,12 +225,13 @@ std::vector<DesignFile> Machine::modules(const std::string& folder) const {
 }
 
 std::vector<DesignFile> Machine::tables() const {
-  std::vector<DesignFile> all{{"exp2.hex", table_text(16, exp2_table())}};
-  if (architecture_->chain) all.push_back({"log2.hex", table_text(8, log2_table())});
-  for (const Memory& memory : model_.propose.memories)
-    all.push_back({memory_file(kProposeInstance, memory), memory.text()});
-  for (const Memory& memory : model_.weigh.memories)
-    all.push_back({memory_file(kWeighInstance, memory), memory.text()});
+  std::vector<DesignFile> all;
+  const auto append = [&](const char* instance, const std::vector<Memory>& memories) {
+    for (const Memory& memory : memories) all.push_back({memory_file(instance, memory), memory.text()});
+  };
+  append(kFilterInstance, filter_tables());
+  append(kProposeInstance, model_.propose.memories);
+  append(kWeighInstance, model_.weigh.memories);
   return all;
 }
 

@@ -49,10 +49,12 @@ class Machine {
   /// The modules that it is made of: the top module last, before it those that it needs, of the library too.
   std::vector<DesignFile> modules(const std::string& folder) const;
   std::vector<DesignFile> tables() const;
+  /// Of the filter's module, without its tables, and those.
+  std::vector<Parameter> parameters() const;
+  std::vector<Memory> filter_tables() const;
 
  private:
   std::string sheet() const;
-  std::vector<Parameter> parameters(const std::string& folder) const;
 
   std::string name_;
   ModelCircuit model_;
