@@ -29,7 +29,11 @@ struct CircuitRun {
 /// error   Refusal (kOutsideTool) when Verilator is missing, warns about the circuit (-Wall) or fails
 class Simulator {
  public:
-  explicit Simulator(const Machine& machine);
+  enum class Text : bool {
+    kWritten,
+    kLowered  ///< as Yosys reads it, see lowering.hpp; not held to -Wall
+  };
+  explicit Simulator(const Machine& machine, Text text = Text::kWritten);
   ~Simulator();
   Simulator(const Simulator&) = delete;
   Simulator(Simulator&&) = delete;
@@ -42,7 +46,7 @@ class Simulator {
   void reset();
 
  private:
-  void build();
+  void build(Text text);
 
   const Machine* machine_;
   ScratchFolder folder_;
