@@ -159,13 +159,15 @@ bool good_enough(const Piecewise& unit, const Function& function, double steps, 
   return true;
 }
 
-/// The shape of the fewest segments for one bottom that is good at 65 numbers of each, if it is smaller than the last.
-void improve(std::vector<Piecewise>& found, const Function& function, PiecewiseShape shape, const FitGoal& goal) {
+/// The shape of the fewest segments for one bottom that is good at so many numbers of each, if it is smaller than the
+/// last.
+void improve(std::vector<Piecewise>& found, const Function& function, PiecewiseShape shape, const FitGoal& goal,
+             std::uint64_t points) {
   for (shape.segment_bits = 1; shape.segment_bits < shape.u_bits() && shape.segment_bits <= 12; ++shape.segment_bits) {
     const std::size_t limit = found.empty() ? goal.most_entries : found.back().shape().entries() - 1;
     if (shape.entries() > limit) return;
     std::optional<Piecewise> unit = PiecewiseFit(function, shape).fitted_within(goal.steps);
-    if (!unit || !good_enough(*unit, function, goal.steps, 65)) continue;
+    if (!unit || !good_enough(*unit, function, goal.steps, points)) continue;
     found.push_back(std::move(*unit));
     return;
   }
@@ -176,10 +178,13 @@ void improve(std::vector<Piecewise>& found, const Function& function, PiecewiseS
 Piecewise fit_piecewise(const Function& function, const Format& x, const Format& y, Fold fold, int centre,
                         const FitGoal& goal) {
   PiecewiseShape shape{x, y, fold, centre, 0, 1, goal.degree, 4, goal.multiplier};
-  std::vector<Piecewise> found;
-  for (shape.bottom = shape.u_bits(); shape.bottom >= 1; --shape.bottom) improve(found, function, shape, goal);
-  for (; !found.empty(); found.pop_back())
-    if (good_enough(found.back(), function, goal.steps, 4097)) return std::move(found.back());
+  constexpr std::uint64_t kMany = 4097;
+  for (const std::uint64_t points : {std::uint64_t{65}, kMany}) {  // few as a rule are enough to choose by
+    std::vector<Piecewise> found;
+    for (shape.bottom = shape.u_bits(); shape.bottom >= 1; --shape.bottom) improve(found, function, shape, goal, points);
+    for (; !found.empty(); found.pop_back())
+      if (good_enough(found.back(), function, goal.steps, kMany)) return std::move(found.back());
+  }
   throw Refusal(ExitCode::kWrongUse, {"piecewise polynomial", "x " + x.name() + ", y " + y.name(),
                                       "an error of at most " + std::to_string(goal.steps) + " steps with at most " +
                                           std::to_string(goal.most_entries) + " segments",

@@ -15,6 +15,8 @@ using graph::Vertex;
 
 /// Shifts and additions take over from a multiplier up to so many digits of the constant.
 constexpr int kMostDigits = 6;
+/// Bits of a function's operand, at least.
+constexpr int kLeastOperand = 5;
 
 /// How a sum is finished: what cannot overflow needs no saturation, and what loses no bits no rounding.
 Finish finish_of(WideWord least, WideWord greatest, int fraction, const Format& y) {
@@ -119,6 +121,12 @@ Signal Mapping::selection(const Vertex& v, const Format& y) {
   return sketch_.select(sketch_.less(signal(v.args[0]), signal(v.args[1])), a, b);
 }
 
+Signal Mapping::operand(Id id) {
+  const Signal a = signal(id);
+  const int more = std::max(0, kLeastOperand - a.format.width());
+  return converted(a, {a.format.sign, a.format.integer, a.format.fraction + more});
+}
+
 Signal Mapping::unsigned_of(const Signal& a) {
   return a.format.sign ? sketch_.convert(a, {false, a.format.integer, a.format.fraction}) : a;
 }
@@ -130,7 +138,7 @@ Signal Mapping::unary(const std::string& name, const Signal& x, const Format& y,
 }
 
 Signal Mapping::cosine_or_sine(const Vertex& v, const Format& y) {
-  const Signal x = signal(v.args[0]);
+  const Signal x = operand(v.args[0]);
   const Format unit{true, 1, std::max(2, y.fraction)};
   const std::string key = x.format.name() + " " + unit.name();
   const std::string of_this = std::to_string(v.args[0]) + " " + key;
@@ -144,13 +152,13 @@ Signal Mapping::cosine_or_sine(const Vertex& v, const Format& y) {
 }
 
 Signal Mapping::angle(const Vertex& v, const Format& y) {
-  const Signal b = signal(v.args[0]);
+  const Signal b = operand(v.args[0]);
   const int fraction = std::max(2, y.fraction);
   if (v.op == Op::kAtan) {
     const auto& unit = functions_.once(functions_.compounds, "atan " + b.format.name() + " " + std::to_string(fraction), [&] { return arc_tangent(b.format, fraction, functions_.options()); });
     return converted(sketch_.op(unit, {true, 1, fraction}, b), y);
   }
-  const Signal a = signal(v.args[1]);
+  const Signal a = operand(v.args[1]);
   const Format point{true, std::max(a.format.integer, b.format.integer), std::max(a.format.fraction, b.format.fraction)};
   const auto& unit = functions_.once(functions_.compounds, "atan2 " + point.name() + " " + std::to_string(fraction), [&] { return arc_tangent_2(point, fraction, functions_.options()); });
   return converted(sketch_.op(unit, {true, 2, fraction}, converted(b, point), converted(a, point)), y);
@@ -160,18 +168,18 @@ Signal Mapping::function(Id id, const Format& y) {
   const Vertex& v = plan_.graph[id];
   switch (v.op) {
     case Op::kDivide: {
-      const Signal a = signal(v.args[0]);
-      const Signal b = signal(v.args[1]);
+      const Signal a = operand(v.args[0]);
+      const Signal b = operand(v.args[1]);
       const auto& unit = functions_.once(functions_.compounds, "divide " + a.format.name() + " " + b.format.name() + " " + y.name(), [&] { return divide(a.format, b.format, y, functions_.options()); });
       return sketch_.op(unit, y, a, b);
     }
     case Op::kSqrt:
-      return unary("sqrt ", unsigned_of(signal(v.args[0])), y, square_root);
+      return unary("sqrt ", unsigned_of(operand(v.args[0])), y, square_root);
     case Op::kExp:
-      return unary("exp ", signal(v.args[0]), y, exponential);
+      return unary("exp ", operand(v.args[0]), y, exponential);
     case Op::kLog: {
       const Format wide{true, y.integer, y.fraction};
-      return converted(unary("log ", unsigned_of(signal(v.args[0])), wide, logarithm), y);
+      return converted(unary("log ", unsigned_of(operand(v.args[0])), wide, logarithm), y);
     }
     case Op::kSin:
     case Op::kCos:

@@ -64,6 +64,7 @@ class Mapping {
   Signal unary(const std::string& name, const Signal& x, const Format& y, Compound (*make)(const Format&, const Format&, const FunctionOptions&));
   Signal cosine_or_sine(const graph::Vertex& v, const Format& y);
   Signal angle(const graph::Vertex& v, const Format& y);
+  Signal operand(graph::Id id);
   Signal unsigned_of(const Signal& a);
   Signal converted(const Signal& a, const Format& y) { return a.format == y ? a : sketch_.convert(a, y); }
   [[noreturn]] void refuse(graph::Id id) const;
