@@ -53,8 +53,14 @@ Wire Compound::input(const std::string& name, const Format& format) {
   return {nodes_.size() - 1, 0};
 }
 
+Wire Compound::standing(const std::string& name, const Format& format) {
+  const Wire wire = input(name, format);
+  nodes_[wire.node].stands = true;
+  return wire;
+}
+
 Wire Compound::constant(const Format& format, Word word) {
-  nodes_.push_back({{"", {}, {}, {port("", format)}}, nullptr, {}, 0, true, word});
+  nodes_.push_back({{"", {}, {}, {port("", format)}}, nullptr, {}, 0, true, true, word});
   return {nodes_.size() - 1, 0};
 }
 
@@ -98,7 +104,7 @@ std::string Compound::text() const {
   const auto read = [&](const Wire& wire, int clock) {
     const Node& from = nodes_[wire.node];
     used[{wire.node, wire.port}] = true;
-    return writer.delayed(wire, from.circuit.outputs[wire.port].width, from.fixed ? 0 : clock - from.ready);
+    return writer.delayed(wire, from.circuit.outputs[wire.port].width, from.stands ? 0 : clock - from.ready);
   };
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     const Node& node = nodes_[n];

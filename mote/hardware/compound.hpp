@@ -27,6 +27,8 @@ class Compound {
   explicit Compound(std::string name) : name_(std::move(name)) {}
 
   Wire input(const std::string& name, const Format& format);
+  /// An input that stands still while rows go through, so that it waits in no delay; a twin has a column for it, too.
+  Wire standing(const std::string& name, const Format& format);
   /// A number that never changes, as a word of a format.
   Wire constant(const Format& format, Word word);
   /// An operator's output wires are those of its circuit, in order; the first is returned.
@@ -47,7 +49,8 @@ class Compound {
     Twin twin;
     std::vector<Wire> operands;
     int ready = 0;       ///< the clock after which its outputs are there
-    bool fixed = false;  ///< a constant
+    bool stands = false;  ///< never changes, or not while rows go through
+    bool fixed = false;   ///< a constant
     Word word = 0;
   };
   struct Output {

@@ -27,6 +27,7 @@ class Sketch {
   Sketch(std::string name, Multiplier multiplier) : compound_(std::move(name)), multiplier_(multiplier) {}
 
   Signal input(const std::string& name, const Format& format) { return {compound_.input(name, format), format}; }
+  Signal standing(const std::string& name, const Format& format) { return {compound_.standing(name, format), format}; }
   void output(const std::string& name, const Signal& signal) { compound_.output(name, signal.format, signal.wire); }
   Compound done() { return std::move(compound_); }
 

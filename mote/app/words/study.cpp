@@ -27,6 +27,16 @@ WordStudy::WordStudy(const CatalogueModel& model, const WordStudyDesign& design,
 
 graph::Ranges WordStudy::ranges() const { return graph::ranges(recorded_, seen_, design_.margin); }
 
+hardware::Samples WordStudy::samples() const {
+  constexpr std::size_t kKept = 4096;
+  const std::size_t calls = design_.particles * static_cast<std::size_t>(design_.steps) * scenes_.size();
+  const auto sampling = std::make_shared<hardware::SampledArithmetic>(recorded_, calls / kKept + 1, kKept);
+  std::vector<double> errors = squares(sampling).errors;
+  const auto estimates = static_cast<double>(scenes_.size() * static_cast<std::size_t>(design_.steps));
+  for (double& error : errors) error = std::sqrt(error / estimates);
+  return {sampling->samples().calls, errors};
+}
+
 double WordStudy::error_ratio(const graph::FixedPoint& point) const {
   const Squares both = squares(std::make_shared<graph::FixedArithmetic>(recorded_.graph, point));
   double worst = 0;

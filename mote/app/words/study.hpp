@@ -5,6 +5,7 @@
 
 #include "mote/app/catalogue/scene.hpp"
 #include "mote/graph/words.hpp"
+#include "mote/hardware/datapath/samples.hpp"
 
 namespace mote {
 
@@ -35,6 +36,8 @@ class WordStudy {
   const graph::Recorded& recorded() const { return recorded_; }
   /// Ranges, from the double filter's particles.
   graph::Ranges ranges() const;
+  /// The calls of the model's functions by the double filter, from which a circuit's words are chosen.
+  hardware::Samples samples() const;
   /// The error ratio of these formats: that of the state for which it is largest.
   double error_ratio(const graph::FixedPoint& point) const;
 

@@ -1,0 +1,256 @@
+#include "mote/hardware/datapath/datapath.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <deque>
+#include <span>
+
+#include "mote/graph/evaluate.hpp"
+#include "mote/hardware/datapath/mapping.hpp"
+#include "mote/hardware/random.hpp"
+
+namespace mote::hardware {
+namespace {
+
+using graph::Id;
+using graph::Op;
+using graph::Role;
+using graph::Vertex;
+
+std::string numbered(const char* name, std::size_t k) { return name + std::to_string(k) + "_i"; }
+
+/// Builds the pipelines of a plan.
+class Builder {
+ public:
+  Builder(const Plan& plan, const graph::Recorded& recorded, const Precision& precision, const DatapathOptions& options)
+      : plan_(plan),
+        recorded_(recorded),
+        precision_(precision),
+        options_(options),
+        functions_({options.form, options.multiplier}) {}
+
+  Compound propose() {
+    Sketch sketch(options_.prefix + "_propose", options_.multiplier);
+    Mapping mapping(plan_, recorded_, precision_, sketch, functions_);
+    const Signal first = sketch.standing("first_i", {false, 1, 0});
+    const std::vector<Signal> states = state_ports(sketch);
+    give_draws(sketch, mapping);
+    give_fields(sketch, mapping);
+    mapping.compute(plan_.initial);
+    std::vector<Signal> parents;
+    for (std::size_t d = 0; d < states.size(); ++d)
+      parents.push_back(sketch.select(first, mapping.in(plan_.initial[d], precision_.states[d]), states[d]));
+    give_states(mapping, Role::kBefore, parents);
+    mapping.compute(plan_.next);
+    for (std::size_t d = 0; d < states.size(); ++d)
+      sketch.output("state" + std::to_string(d) + "_o", mapping.in(plan_.next[d], precision_.states[d]));
+    return sketch.done();
+  }
+
+  Compound weigh() {
+    Sketch sketch(options_.prefix + "_weigh", options_.multiplier);
+    Mapping mapping(plan_, recorded_, precision_, sketch, functions_);
+    give_states(mapping, Role::kState, state_ports(sketch));
+    give_fields(sketch, mapping);
+    mapping.compute({plan_.log_weight});
+    sketch.output("log_o", mapping.in(plan_.log_weight, kLogWeight));
+    return sketch.done();
+  }
+
+ private:
+  std::vector<Signal> state_ports(Sketch& sketch) const {
+    std::vector<Signal> states;
+    for (std::size_t d = 0; d < precision_.states.size(); ++d)
+      states.push_back(sketch.input(numbered("state", d), precision_.states[d]));
+    return states;
+  }
+  void give_states(Mapping& mapping, Role role, const std::vector<Signal>& states) const {
+    for (Id id = 0; id < plan_.graph.size(); ++id)
+      if (const Vertex& v = plan_.graph[id]; v.op == Op::kInput && v.role == role) mapping.give(id, states[v.index]);
+  }
+  void give_fields(Sketch& sketch, Mapping& mapping) const {
+    for (std::size_t k = 0; k < plan_.fields.size(); ++k)
+      mapping.give(plan_.fields[k], sketch.standing(numbered("obs", k), precision_.formats[plan_.fields[k]]));
+  }
+  /// Words: those of x_0 first, then those of the move.
+  void give_draws(Sketch& sketch, Mapping& mapping) {
+    std::vector<Signal> words;
+    for (std::size_t k = 0; k < recorded_.prior_draws.size() + recorded_.draws.size(); ++k)
+      words.push_back(sketch.input(numbered("word", k), kSignedBits));
+    const std::size_t before = recorded_.prior_draws.size();
+    for (Id id = 0; id < plan_.graph.size(); ++id) {
+      const Vertex& v = plan_.graph[id];
+      const Format& format = precision_.formats[id];
+      if (v.op != Op::kInput) continue;
+      if (v.role == Role::kPriorNormal) mapping.give(id, mapping.normal(words[v.index], format));
+      if (v.role == Role::kPriorUniform) mapping.give(id, mapping.uniform(words[v.index], format));
+      if (v.role == Role::kNormal) mapping.give(id, mapping.normal(words[before + v.index], format));
+      if (v.role == Role::kUniform) mapping.give(id, mapping.uniform(words[before + v.index], format));
+    }
+  }
+
+  const Plan& plan_;
+  const graph::Recorded& recorded_;
+  const Precision& precision_;
+  DatapathOptions options_;
+  Functions functions_;
+};
+
+std::vector<ObservedField> fields_of(const Plan& plan, const graph::Recorded& recorded, const Precision& precision) {
+  std::vector<ObservedField> fields;
+  int at = 0;
+  for (const Id id : plan.fields) {
+    const Vertex& v = plan.graph[id];
+    const int bit = plan.seen_bit(id);
+    std::string name = v.op == Op::kInput ? "" : "v" + std::to_string(id);
+    if (bit >= 0) {
+      for (const std::uint32_t column : plan.seen[static_cast<std::size_t>(bit)]) name += recorded.columns[column].name + " ";
+      name += "seen";
+    } else if (v.op == Op::kInput) {
+      name = recorded.name_of(v);
+    }
+    fields.push_back({name, precision.formats[id], at});
+    at += precision.formats[id].width();
+  }
+  return fields;
+}
+
+/// Evaluates what the host computes.
+std::vector<std::int64_t> computed_fields(const Plan& plan, const std::vector<Format>& formats, const Row<double>& row,
+                                   const std::vector<double>& schedule) {
+  std::vector<double> values;
+  graph::evaluate(
+      plan.graph,
+      [&](const Vertex& v) {
+        if (v.role == Role::kSchedule) return schedule[v.index];
+        if (v.role != Role::kColumn) return 0.0;
+        if (v.index < plan.columns) return row[v.index];
+        const auto& needs = plan.seen[v.index - plan.columns];
+        return std::all_of(needs.begin(), needs.end(), [&](std::uint32_t j) { return row.seen(j); }) ? 1.0 : 0.0;
+      },
+      values);
+  std::vector<std::int64_t> words;
+  for (std::size_t k = 0; k < plan.fields.size(); ++k) words.push_back(formats[k].nearest(values[plan.fields[k]]));
+  return words;
+}
+
+/// The columns of a twin's ports, filled one after the other.
+class Ports {
+ public:
+  explicit Ports(std::size_t rows) : rows_(rows) {}
+  void standing(std::int64_t word) {
+    kept_.push_back(std::vector<Word>(rows_, word));
+    columns_.emplace_back(kept_.back());
+  }
+  void column(std::span<const std::int64_t> column) { columns_.emplace_back(column); }
+  void random(std::span<const std::uint32_t> words) {
+    std::vector<Word>& signed_words = kept_.emplace_back();
+    for (const std::uint32_t word : words) signed_words.push_back(signed_bits(word));
+    columns_.emplace_back(signed_words);
+  }
+  Columns all() const { return columns_; }
+
+ private:
+  std::size_t rows_;
+  std::deque<std::vector<Word>> kept_;
+  std::vector<std::span<const Word>> columns_;
+};
+
+Arithmetic golden(const Compound& propose, const Compound& weigh, const Formats& formats) {
+  Arithmetic all;
+  all.formats = formats;
+  all.propose = [propose](unsigned t, Observed observed, const Particles& parents, const WordColumns& words,
+                          Particles& states) {
+    Ports in(states[0].size());
+    in.standing(t == 1 ? 1 : 0);
+    for (const auto& parent : parents) in.column(parent);
+    for (const auto& column : words) in.random(column);
+    for (const std::int64_t word : observed) in.standing(word);
+    const std::vector<std::span<Word>> out(states.begin(), states.end());
+    propose.compute(in.all(), out);
+  };
+  all.weigh = [weigh](unsigned, Observed observed, const Particles& states, std::span<std::int64_t> log_weights) {
+    Ports in(log_weights.size());
+    for (const auto& state : states) in.column(state);
+    for (const std::int64_t word : observed) in.standing(word);
+    weigh.compute(in.all(), std::array{log_weights});
+  };
+  return all;
+}
+
+std::string slice(const std::string& bus, int at, int width) {
+  return bus + "[" + std::to_string(at + width - 1) + ":" + std::to_string(at) + "]";
+}
+
+Connections state_connections(const Datapath& datapath, const std::string& bus, const char* end) {
+  Connections all;
+  const auto width = static_cast<int>(datapath.arithmetic.formats.value_bits);
+  for (std::size_t d = 0; d < datapath.states.size(); ++d)
+    all.emplace_back("state" + std::to_string(d) + end, slice(bus, static_cast<int>(d) * width, width));
+  return all;
+}
+
+void append_fields(Connections& all, const Datapath& datapath) {
+  for (std::size_t k = 0; k < datapath.observed.size(); ++k)
+    all.emplace_back(numbered("obs", k), slice("obs", datapath.observed[k].at, datapath.observed[k].format.width()));
+}
+
+}  // namespace
+
+std::vector<std::int64_t> Datapath::observe(const Row<double>& row, const std::vector<double>& schedule) const {
+  return host(row, schedule);
+}
+
+double Datapath::mean(std::size_t d, std::int64_t word) const {
+  return std::ldexp(static_cast<double>(word), -states[d].fraction - static_cast<int>(arithmetic.formats.extra_bits));
+}
+
+Connections propose_connections(const Datapath& datapath) {
+  Connections all{{"clk_i", "clk_i"}, {"first_i", "t == 16'd1"}};
+  const Connections in = state_connections(datapath, "parent", "_i");
+  const Connections out = state_connections(datapath, "proposed", "_o");
+  all.insert(all.end(), in.begin(), in.end());
+  for (unsigned w = 0; w < datapath.arithmetic.formats.draw_words; ++w)
+    all.emplace_back(numbered("word", w), "words[" + std::to_string(w) + "]");
+  append_fields(all, datapath);
+  all.insert(all.end(), out.begin(), out.end());
+  return all;
+}
+
+Connections weigh_connections(const Datapath& datapath) {
+  Connections all{{"clk_i", "clk_i"}};
+  const Connections in = state_connections(datapath, "to_weigh", "_i");
+  all.insert(all.end(), in.begin(), in.end());
+  append_fields(all, datapath);
+  all.emplace_back("log_o", "log_weight");
+  return all;
+}
+
+Datapath datapath(const graph::Recorded& recorded, const Samples& samples, const DatapathOptions& options) {
+  const Plan plan = plan_of(recorded);
+  const Precision precision = precision_of(plan, recorded, samples, options.margin, options.more_bits);
+  Builder builder(plan, recorded, precision, options);
+  Datapath made;
+  made.propose = builder.propose();
+  made.weigh = builder.weigh();
+  made.states = precision.states;
+  made.observed = fields_of(plan, recorded, precision);
+  made.observed_bits = made.observed.empty() ? 0 : made.observed.back().at + made.observed.back().format.width();
+  made.constant = plan.constant;
+  Formats formats;
+  formats.dims = static_cast<unsigned>(precision.states.size());
+  formats.value_bits = static_cast<unsigned>(precision.states[0].width());
+  formats.draw_words = static_cast<unsigned>(recorded.prior_draws.size() + recorded.draws.size());
+  formats.propose_latency = static_cast<unsigned>(made.propose.circuit().latency);
+  formats.weigh_latency = static_cast<unsigned>(made.weigh.circuit().latency);
+  made.arithmetic = golden(made.propose, made.weigh, formats);
+  std::vector<Format> words;
+  for (const ObservedField& field : made.observed) words.push_back(field.format);
+  made.host = [plan, words](const Row<double>& row, const std::vector<double>& schedule) {
+    return computed_fields(plan, words, row, schedule);
+  };
+  return made;
+}
+
+}  // namespace mote::hardware
