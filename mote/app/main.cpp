@@ -8,5 +8,5 @@ int main(int count, char** words) {
   return run_program(
       count, words,
       {models_command(), simulate_command(), run_command(to_team), track_command(to_tracker), train_command(to_tracker),
-       compare_command(), graph_command(), bench_command(), reproduce_command(), simulate_cluster_command()});
+       compare_command(), graph_command(), rtl_command(), bench_command(), reproduce_command(), simulate_cluster_command()});
 }

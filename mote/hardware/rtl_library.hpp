@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace mote::hardware {
 
@@ -15,6 +16,9 @@ struct RtlFile {
 
 /// Every file of the library, in the order of the alphabet.
 std::span<const RtlFile> rtl_library();
+
+/// The files whose modules a text names, and those that they name in turn, in the order of the alphabet.
+std::vector<RtlFile> needed_of_library(const std::string& text);
 
 /// Writes the library into a folder that exists.
 ///
