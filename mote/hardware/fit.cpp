@@ -68,6 +68,16 @@ class PiecewiseFit {
     return std::isnan(steps) ? 0.0 : std::clamp(steps, -reach, reach);
   }
 
+  /// The unit, unless one of its segments misses the goal at 17 numbers.
+  std::optional<Piecewise> fitted_within(double steps) {
+    for (std::size_t entry = 0; entry < unit_.table_.size(); ++entry) {
+      const Segment segment = segment_of(entry);
+      unit_.table_[entry] = coefficients(segment);
+      if (error_in(unit_, *this, segment, 17) > steps) return {};
+    }
+    return unit_;
+  }
+
   Piecewise fitted() {
     for (std::size_t entry = 0; entry < unit_.table_.size(); ++entry)
       unit_.table_[entry] = coefficients(segment_of(entry));
@@ -149,16 +159,17 @@ bool good_enough(const Piecewise& unit, const Function& function, double steps, 
   return true;
 }
 
-/// The shape of the fewest segments for one bottom, if it is smaller than `best`.
-void improve(std::optional<Piecewise>& best, const Function& function, PiecewiseShape shape, const FitGoal& goal) {
+/// The shape of the fewest segments for one bottom that is good at so many numbers of each, if it is smaller than the
+/// last.
+void improve(std::vector<Piecewise>& found, const Function& function, PiecewiseShape shape, const FitGoal& goal,
+             std::uint64_t points) {
   for (shape.segment_bits = 1; shape.segment_bits < shape.u_bits() && shape.segment_bits <= 12; ++shape.segment_bits) {
-    const std::size_t limit = best ? best->shape().entries() - 1 : goal.most_entries;
+    const std::size_t limit = found.empty() ? goal.most_entries : found.back().shape().entries() - 1;
     if (shape.entries() > limit) return;
-    const Piecewise unit = fit_shape(function, shape);
-    if (good_enough(unit, function, goal.steps, 65) && good_enough(unit, function, goal.steps, 4097)) {
-      best = unit;
-      return;
-    }
+    std::optional<Piecewise> unit = PiecewiseFit(function, shape).fitted_within(goal.steps);
+    if (!unit || !good_enough(*unit, function, goal.steps, points)) continue;
+    found.push_back(std::move(*unit));
+    return;
   }
 }
 
@@ -167,9 +178,14 @@ void improve(std::optional<Piecewise>& best, const Function& function, Piecewise
 Piecewise fit_piecewise(const Function& function, const Format& x, const Format& y, Fold fold, int centre,
                         const FitGoal& goal) {
   PiecewiseShape shape{x, y, fold, centre, 0, 1, goal.degree, 4, goal.multiplier};
-  std::optional<Piecewise> best;
-  for (shape.bottom = shape.u_bits(); shape.bottom >= 1; --shape.bottom) improve(best, function, shape, goal);
-  if (best) return *best;
+  constexpr std::uint64_t kMany = 4097;
+  for (const std::uint64_t points : {std::uint64_t{65}, kMany}) {  // few as a rule are enough to choose by
+    std::vector<Piecewise> found;
+    for (shape.bottom = shape.u_bits(); shape.bottom >= 1; --shape.bottom)
+      improve(found, function, shape, goal, points);
+    for (; !found.empty(); found.pop_back())
+      if (good_enough(found.back(), function, goal.steps, kMany)) return std::move(found.back());
+  }
   throw Refusal(ExitCode::kWrongUse, {"piecewise polynomial", "x " + x.name() + ", y " + y.name(),
                                       "an error of at most " + std::to_string(goal.steps) + " steps with at most " +
                                           std::to_string(goal.most_entries) + " segments",

@@ -2,7 +2,6 @@
 #include <map>
 
 #include "mote/hardware/rtl_library.hpp"
-#include "mote/hardware/tools.hpp"
 
 namespace mote::hardware {
 namespace {
@@ -32,10 +31,6 @@ std::vector<RtlFile> needed_of_library(const std::string& text) {
   std::vector<RtlFile> files;
   for (const auto& [name, file] : needed) files.push_back(file);
   return files;
-}
-
-void write_rtl_library(const std::string& folder) {
-  for (const RtlFile& file : rtl_library()) write_text(folder + "/" + std::string(file.name), std::string(file.text));
 }
 
 }  // namespace mote::hardware

@@ -20,9 +20,4 @@ std::span<const RtlFile> rtl_library();
 /// The files whose modules a text names, and those that they name in turn, in the order of the alphabet.
 std::vector<RtlFile> needed_of_library(const std::string& text);
 
-/// Writes the library into a folder that exists.
-///
-/// error   Refusal (kCannotWrite)
-void write_rtl_library(const std::string& folder);
-
 }  // namespace mote::hardware

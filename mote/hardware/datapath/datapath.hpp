@@ -18,14 +18,14 @@ namespace mote::hardware {
 struct DatapathOptions {
   Multiplier multiplier = Multiplier::kDsp;
   Form form = Form::kTable;
-  double margin = 0.25;  ///< by which ranges are wider than the samples
-  int more_bits = 0;     ///< after the point, for all words
-  bool fuse = true;      ///< functions of one number become one table where that is smaller
+  double margin = 0.25;               ///< by which ranges are wider than the samples
+  int more_bits = 0;                  ///< after the point, for all words
+  bool fuse = true;                   ///< functions of one number become one table where that is smaller
   std::string prefix = "mote_model";  ///< of the modules' names: <prefix>_propose and <prefix>_weigh
 };
 
-/// A number that comes with a step: a column of its row, a number of the schedule, another number that the host computes
-/// from them, or a bit "the columns were seen".
+/// A number that comes with a step: a column of its row, a number of the schedule, another number that the host
+/// computes from them, or a bit "the columns were seen".
 struct ObservedField {
   std::string name;  ///< "y", "schedule 0", "v12", "y seen"
   Format format;
@@ -64,7 +64,7 @@ using Connections = std::vector<std::pair<std::string, std::string>>;
 Connections propose_connections(const Datapath& datapath);
 Connections weigh_connections(const Datapath& datapath);
 
-/// A model's datapath. Words are as short as the samples allow: docs/hardware.md.
+/// A model's datapath. Words are as short as the samples allow (precision.hpp).
 ///
 /// error   Refusal (kWrongUse) naming the vertex that no circuit exists for
 /// cost    a second: tables are fitted

@@ -15,11 +15,15 @@ using graph::Vertex;
 
 /// Shifts and additions take over from a multiplier up to so many digits of the constant.
 constexpr int kMostDigits = 6;
+/// Bits of a function's operand, at least.
+constexpr int kLeastOperand = 5;
 
 /// How a sum is finished: what cannot overflow needs no saturation, and what loses no bits no rounding.
 Finish finish_of(WideWord least, WideWord greatest, int fraction, const Format& y) {
   const int drop = fraction - y.fraction;
-  const auto at = [&](Word end) { return drop >= 0 ? static_cast<WideWord>(end) << drop : static_cast<WideWord>(end) >> -drop; };
+  const auto at = [&](Word end) {
+    return drop >= 0 ? static_cast<WideWord>(end) << drop : static_cast<WideWord>(end) >> -drop;
+  };
   const bool fits = least >= at(y.least()) && greatest <= at(y.greatest());
   return {drop > 0 ? Rounding::kNearest : Rounding::kDown, fits ? Overflow::kWrap : Overflow::kSaturate};
 }
@@ -41,9 +45,8 @@ void Mapping::compute(const std::vector<Id>& outputs) {
 Signal Mapping::in(Id id, const Format& format) { return converted(signal(id), format); }
 
 Signal Mapping::normal(const Signal& word, const Format& format) {
-  const auto& unit = functions_.once(functions_.tables, "normal " + format.name(), [&] {
-    return normal_unit(format.fraction, functions_.options().multiplier);
-  });
+  const auto& unit = functions_.once(functions_.tables, "normal " + format.name(),
+                                     [&] { return normal_unit(format.fraction, functions_.options().multiplier); });
   return sketch_.op(unit, format, word);
 }
 
@@ -107,8 +110,10 @@ Signal Mapping::by_constant(const Signal& a, Id constant, const Format& y) {
   const Word word = c.format.nearest(plan_.graph[constant].value);
   if (word == 0) return sketch_.constant(y, 0);
   const SignedDigits digits = signed_digits(word);
-  if (digits.count() == 1 && digits.minus == 0) return converted(a.times_two_to(digits.width() - 1 - c.format.fraction), y);
-  if (functions_.options().multiplier == Multiplier::kDsp && digits.count() > kMostDigits) return sketch_.product(a, c, y);
+  if (digits.count() == 1 && digits.minus == 0)
+    return converted(a.times_two_to(digits.width() - 1 - c.format.fraction), y);
+  if (functions_.options().multiplier == Multiplier::kDsp && digits.count() > kMostDigits)
+    return sketch_.product(a, c, y);
   return sketch_.op(ConstantProduct{a.format, y, word, c.format.fraction}, y, a);
 }
 
@@ -119,23 +124,31 @@ Signal Mapping::selection(const Vertex& v, const Format& y) {
   return sketch_.select(sketch_.less(signal(v.args[0]), signal(v.args[1])), a, b);
 }
 
+Signal Mapping::operand(Id id) {
+  const Signal a = signal(id);
+  const int more = std::max(0, kLeastOperand - a.format.width());
+  return converted(a, {a.format.sign, a.format.integer, a.format.fraction + more});
+}
+
 Signal Mapping::unsigned_of(const Signal& a) {
   return a.format.sign ? sketch_.convert(a, {false, a.format.integer, a.format.fraction}) : a;
 }
 
-Signal Mapping::unary(const std::string& name, const Signal& x, const Format& y, Compound (*make)(const Format&, const Format&, const FunctionOptions&)) {
+Signal Mapping::unary(const std::string& name, const Signal& x, const Format& y,
+                      Compound (*make)(const Format&, const Format&, const FunctionOptions&)) {
   const auto& unit = functions_.once(functions_.compounds, name + x.format.name() + " " + y.name(),
                                      [&] { return make(x.format, y, functions_.options()); });
   return sketch_.op(unit, y, x);
 }
 
 Signal Mapping::cosine_or_sine(const Vertex& v, const Format& y) {
-  const Signal x = signal(v.args[0]);
+  const Signal x = operand(v.args[0]);
   const Format unit{true, 1, std::max(2, y.fraction)};
   const std::string key = x.format.name() + " " + unit.name();
   const std::string of_this = std::to_string(v.args[0]) + " " + key;
   if (!pairs_.contains(of_this)) {
-    const auto& both = functions_.once(functions_.compounds, "cosine and sine " + key, [&] { return cosine_and_sine(x.format, unit, functions_.options()); });
+    const auto& both = functions_.once(functions_.compounds, "cosine and sine " + key,
+                                       [&] { return cosine_and_sine(x.format, unit, functions_.options()); });
     const Signal cosine = sketch_.op(both, unit, x);
     pairs_.insert({of_this, {cosine, {{cosine.wire.node, 1}, unit}}});
   }
@@ -144,15 +157,18 @@ Signal Mapping::cosine_or_sine(const Vertex& v, const Format& y) {
 }
 
 Signal Mapping::angle(const Vertex& v, const Format& y) {
-  const Signal b = signal(v.args[0]);
+  const Signal b = operand(v.args[0]);
   const int fraction = std::max(2, y.fraction);
   if (v.op == Op::kAtan) {
-    const auto& unit = functions_.once(functions_.compounds, "atan " + b.format.name() + " " + std::to_string(fraction), [&] { return arc_tangent(b.format, fraction, functions_.options()); });
+    const auto& unit = functions_.once(functions_.compounds, "atan " + b.format.name() + " " + std::to_string(fraction),
+                                       [&] { return arc_tangent(b.format, fraction, functions_.options()); });
     return converted(sketch_.op(unit, {true, 1, fraction}, b), y);
   }
-  const Signal a = signal(v.args[1]);
-  const Format point{true, std::max(a.format.integer, b.format.integer), std::max(a.format.fraction, b.format.fraction)};
-  const auto& unit = functions_.once(functions_.compounds, "atan2 " + point.name() + " " + std::to_string(fraction), [&] { return arc_tangent_2(point, fraction, functions_.options()); });
+  const Signal a = operand(v.args[1]);
+  const Format point{true, std::max(a.format.integer, b.format.integer),
+                     std::max(a.format.fraction, b.format.fraction)};
+  const auto& unit = functions_.once(functions_.compounds, "atan2 " + point.name() + " " + std::to_string(fraction),
+                                     [&] { return arc_tangent_2(point, fraction, functions_.options()); });
   return converted(sketch_.op(unit, {true, 2, fraction}, converted(b, point), converted(a, point)), y);
 }
 
@@ -160,18 +176,20 @@ Signal Mapping::function(Id id, const Format& y) {
   const Vertex& v = plan_.graph[id];
   switch (v.op) {
     case Op::kDivide: {
-      const Signal a = signal(v.args[0]);
-      const Signal b = signal(v.args[1]);
-      const auto& unit = functions_.once(functions_.compounds, "divide " + a.format.name() + " " + b.format.name() + " " + y.name(), [&] { return divide(a.format, b.format, y, functions_.options()); });
+      const Signal a = operand(v.args[0]);
+      const Signal b = operand(v.args[1]);
+      const auto& unit =
+          functions_.once(functions_.compounds, "divide " + a.format.name() + " " + b.format.name() + " " + y.name(),
+                          [&] { return divide(a.format, b.format, y, functions_.options()); });
       return sketch_.op(unit, y, a, b);
     }
     case Op::kSqrt:
-      return unary("sqrt ", unsigned_of(signal(v.args[0])), y, square_root);
+      return unary("sqrt ", unsigned_of(operand(v.args[0])), y, square_root);
     case Op::kExp:
-      return unary("exp ", signal(v.args[0]), y, exponential);
+      return unary("exp ", operand(v.args[0]), y, exponential);
     case Op::kLog: {
       const Format wide{true, y.integer, y.fraction};
-      return converted(unary("log ", unsigned_of(signal(v.args[0])), wide, logarithm), y);
+      return converted(unary("log ", unsigned_of(operand(v.args[0])), wide, logarithm), y);
     }
     case Op::kSin:
     case Op::kCos:

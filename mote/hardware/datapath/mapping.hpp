@@ -61,9 +61,11 @@ class Mapping {
   Signal by_constant(const Signal& a, graph::Id constant, const Format& y);
   Signal selection(const graph::Vertex& v, const Format& y);
   Signal function(graph::Id id, const Format& y);
-  Signal unary(const std::string& name, const Signal& x, const Format& y, Compound (*make)(const Format&, const Format&, const FunctionOptions&));
+  Signal unary(const std::string& name, const Signal& x, const Format& y,
+               Compound (*make)(const Format&, const Format&, const FunctionOptions&));
   Signal cosine_or_sine(const graph::Vertex& v, const Format& y);
   Signal angle(const graph::Vertex& v, const Format& y);
+  Signal operand(graph::Id id);
   Signal unsigned_of(const Signal& a);
   Signal converted(const Signal& a, const Format& y) { return a.format == y ? a : sketch_.convert(a, y); }
   [[noreturn]] void refuse(graph::Id id) const;

@@ -39,8 +39,9 @@ class Weigher {
         if (same) group.push_back(term.id);
         return same;
       });
-      std::optional<Id>& side = factor < 0 ? minus : plus;
-      const Id sum = sum_of(group, std::abs(factor));
+      const bool within = squares(group);
+      const Id sum = within ? sum_of(group, std::sqrt(std::abs(factor))) : times(sum_of(group, 1), factor);
+      std::optional<Id>& side = within && factor < 0 ? minus : plus;
       side = side ? add(*side, sum) : sum;
     }
     if (!minus) return plus ? *plus : graph_.constant(0);
@@ -100,23 +101,25 @@ class Weigher {
     return graph_.operation(Op::kSelect, {seen, graph_.constant(0.5), graph_.constant(0), term});
   }
 
-  /// factor times the sum of the terms, each only where it was seen.
-  Id sum_of(std::vector<Id> terms, double factor) {
-    const double root = std::sqrt(factor);
-    const bool within = std::all_of(terms.begin(), terms.end(), [&](Id id) {
+  /// Whether all terms are squares of what takes up a factor.
+  bool squares(const std::vector<Id>& terms) const {
+    return std::all_of(terms.begin(), terms.end(), [&](Id id) {
       return graph_[id].op == Op::kMultiply && graph_[id].args[0] == graph_[id].args[1] && scales(graph_[id].args[0]);
     });
+  }
+  /// The sum of the terms, each only where it was seen; squares of `root` times their sides if root is not 1.
+  Id sum_of(const std::vector<Id>& terms, double root) {
     std::optional<Id> sum;
     for (const Id term : terms) {
       Id inner = term;
-      if (within) {
-        const Id half = scaled(graph_[term].args[0], root);
-        inner = graph_.operation(Op::kMultiply, {half, half});
+      if (root != 1) {
+        const Id side = scaled(graph_[term].args[0], root);
+        inner = graph_.operation(Op::kMultiply, {side, side});
       }
       const Id part = masked(inner, needs(term));
       sum = sum ? add(*sum, part) : part;
     }
-    return within ? *sum : times(*sum, factor);
+    return *sum;
   }
 
   /// Whether a factor costs nothing: it goes into constants and into what the host computes.

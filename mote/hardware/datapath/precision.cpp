@@ -15,10 +15,11 @@ using graph::Op;
 using graph::Role;
 using graph::Vertex;
 
-constexpr double kNoiseShare = 8, kErrorShare = 16;  // a step is at most such a part of either
-constexpr double kLogStep = 1.0 / 16, kStateLogStep = 0.5;  // octaves
+constexpr double kNoiseShare = 8, kErrorShare = 16;          // a step is at most such a part of either
+constexpr double kLogStep = 1.0 / 16, kStateLogStep = 0.25;  // octaves
 constexpr double kFaintOctaves = 8;
 constexpr int kMostFraction = 30, kMostBits = 40, kMostOfFunction = 24;
+constexpr int kConstantBits = 3;  // more: a constant's error is the same for all particles
 
 /// Mean squares of slopes, each finite one.
 struct Squares {
@@ -39,8 +40,8 @@ bool is_draw(const Vertex& v) {
   return is_normal(v) || (v.op == Op::kInput && (v.role == Role::kUniform || v.role == Role::kPriorUniform));
 }
 bool is_function(Op op) {
-  return op == Op::kDivide || op == Op::kSqrt || op == Op::kExp || op == Op::kLog || op == Op::kSin ||
-         op == Op::kCos || op == Op::kAtan || op == Op::kAtan2;
+  return op == Op::kDivide || op == Op::kSqrt || op == Op::kExp || op == Op::kLog || op == Op::kSin || op == Op::kCos ||
+         op == Op::kAtan || op == Op::kAtan2;
 }
 
 class Analysis {
@@ -169,14 +170,30 @@ class Analysis {
           if (need_[arg] == 0) need(arg, need_[id]);
       if (v.op != Op::kMultiply) continue;
       for (std::size_t k = 0; k < 2; ++k) {
-        const Interval& other = seen_[v.args[1 - k]];
-        if (need_[v.args[k]] == 0 && other.low <= other.high)
-          need(v.args[k], need_[id] * std::max(std::abs(other.low), std::abs(other.high)));
+        const Id other = v.args[1 - k];
+        const bool whole = plan_.graph[other].op == Op::kFloor;  // it may come to 1 where samples have only 0
+        const double most = std::max({whole ? 1.0 : 0.0, std::abs(seen_[other].low), std::abs(seen_[other].high)});
+        if ((need_[v.args[k]] == 0 || whole) && std::isfinite(most)) need(v.args[k], need_[id] * most);
       }
     }
   }
 
+  /// Angles can be all angles; of data, more is to be expected than was sampled.
+  void widen_inputs() {
+    for (Id id = 0; id < plan_.graph.size(); ++id) {
+      const Vertex& v = plan_.graph[id];
+      Interval& seen = seen_[id];
+      if (v.op != Op::kInput || !(seen.low <= seen.high) || plan_.seen_bit(id) >= 0) continue;
+      const bool column = v.role == Role::kColumn;
+      const bool state = v.role == Role::kState || v.role == Role::kBefore;
+      if ((column && recorded_.columns[v.index].angle) || (state && recorded_.states[v.index].angle))
+        seen = {std::min(seen.low, -kPi), std::max(seen.high, kPi)};
+      if (column && seen.low == seen.high) seen = {seen.low - 1, seen.high + 1};
+    }
+  }
+
   Precision formats(double margin, int more_bits, const std::vector<double>& steps) {
+    widen_inputs();
     graph::Recorded shell;
     shell.graph = plan_.graph;
     const graph::Ranges ranges = graph::ranges(shell, seen_, margin);
@@ -188,8 +205,10 @@ class Analysis {
 
   int fraction_of(Id id, int more_bits) const {
     const double bits = need_[id] > 0 ? std::ceil(std::log2(need_[id])) : 0;
-    const int least = plan_.graph.is_constant(id) ? -kMostFraction : 0;
-    return std::clamp(static_cast<int>(bits) + more_bits, least, kMostFraction);
+    const bool constant = plan_.graph.is_constant(id);
+    if (plan_.graph[id].op == Op::kFloor) return 0;
+    return std::clamp(static_cast<int>(bits) + more_bits + (constant ? kConstantBits : 0),
+                      constant ? -kMostFraction : 0, kMostFraction);
   }
 
   Format format_of(Id id, const graph::Ranges& ranges, int fraction) const {
@@ -199,7 +218,7 @@ class Analysis {
     if (is_draw(v)) return {false, 0, std::clamp(fraction, 1, 32)};
     if (v.op == Op::kConstant) return constant_format(v.value, fraction);
     const auto by = [&](const Interval& range) { return graph::format_for(range, fraction, kMostBits); };
-    graph::Format format = by(ranges.kept[id]);
+    graph::Format format = by(v.op == Op::kFloor ? ranges.analysed[id] : ranges.kept[id]);
     if (const graph::Format safe = by(ranges.analysed[id]); safe.bits() <= format.bits() + 2) format = safe;
     if (is_function(v.op)) format.fraction -= std::clamp(format.bits() - kMostOfFunction, 0, format.fraction);
     return {format.sign, format.integer, format.fraction};
