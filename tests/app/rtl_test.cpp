@@ -12,8 +12,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr const char* kKeys[] = {"cycles", "predicted_cycles", "compared", "mismatches", "lut",      "ff",     "dsp",
-                                 "bram18", "fmax_mhz",         "device",   "rmse",       "power_mw", "stages", "milliseconds"};
+constexpr const char* kKeys[] = {"cycles", "predicted_cycles", "compared", "mismatches", "lut",  "ff",
+                                 "dsp",    "bram18",           "fmax_mhz", "device",     "rmse", "power_mw",
+                                 "stages", "milliseconds"};
 
 void expect_done(const Ended& ended) { EXPECT_EQ(ended.code, 0) << ended.err; }
 
@@ -33,8 +34,9 @@ TEST(Rtl, SaysWithNullsWhatWasNotAskedFor) {
 // design   growth model, 40 steps, a gap and a step that was not seen; both kinds of filter
 TEST(Rtl, SimulatesARecording) {
   const Scratch scratch;
-  expect_done(scratch.shell("mote simulate ungm --steps 42 --seed 8 --out all.csv --truth truth.csv && "
-                            "sed -e '/^7,/d' -e 's/^9,.*/9,/' all.csv > obs.csv"));
+  expect_done(
+      scratch.shell("mote simulate ungm --steps 42 --seed 8 --out all.csv --truth truth.csv && "
+                    "sed -e '/^7,/d' -e 's/^9,.*/9,/' all.csv > obs.csv"));
   expect_done(scratch.shell("mote run ungm --data obs.csv --truth truth.csv -n 20000 --summary run.json"));
   const Json referee = Json::parse(scratch.read("run.json"));
   for (const std::string arch : {"imh", "sisr"}) {
@@ -106,7 +108,8 @@ TEST(Rtl, RefusesInASentence) {
       {"local-level -n 0", 2, "--particles: expected an integer from 1 to 65536"},
       {"local-level --synth asic", 2, "--synth: expected one of xc7, ice40, ecp5"},
       {"local-level --truth one.csv", 2, "--truth: expected --simulate"},
-      {"local-level --simulate twice.csv", 3, "twice.csv: t = 1: expected one row a step, which a circuit takes, got 2"},
+      {"local-level --simulate twice.csv", 3,
+       "twice.csv: t = 1: expected one row a step, which a circuit takes, got 2"},
       {"local-level --simulate none.csv", 3, "none.csv"},
       {"nothing", 2, "nothing"}};
   for (const Wrong& wrong : all) {
@@ -131,8 +134,8 @@ TEST(Rtl, CountsWhatACircuitTakes) {
   EXPECT_TRUE(json["device"].get<std::string>().starts_with("XC7A100T"));
   EXPECT_GT(json["fmax_mhz"], 50);
   EXPECT_LT(json["fmax_mhz"], 400);
-  EXPECT_NEAR(json["milliseconds"].get<double>() * json["fmax_mhz"].get<double>() * 1000,
-              json["cycles"].get<double>(), 1e-6);
+  EXPECT_NEAR(json["milliseconds"].get<double>() * json["fmax_mhz"].get<double>() * 1000, json["cycles"].get<double>(),
+              1e-6);
 }
 
 }  // namespace

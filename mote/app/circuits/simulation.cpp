@@ -89,7 +89,7 @@ CircuitSimulation simulated(const FilterCircuit& circuit, const CircuitDesign& d
 
 RunRecord golden_run(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
                      const std::string& where) {
-  const auto golden = circuit.machine->golden();
+  const auto golden = design.architecture->golden(circuit.datapath.arithmetic, design.seed);
   golden->start(design.registers);
   std::vector<hardware::Estimate> estimates;
   for (const auto& step : observed_by(circuit, recording, where)) estimates.push_back(golden->step(step));

@@ -25,7 +25,7 @@ std::vector<std::vector<std::int64_t>> observed_by(const FilterCircuit& circuit,
 CircuitSimulation simulated(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
                             const std::string& where);
 
-/// The golden model's run of a recording, without a simulation: what the circuit would give.
+/// The golden model's run of a recording by the design's seed, without a simulation: what the circuit would give.
 RunRecord golden_run(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
                      const std::string& where);
 

@@ -7,43 +7,13 @@
 #include "mote/app/circuits/simulation.hpp"
 #include "mote/app/commands/command.hpp"
 #include "mote/app/commands/job.hpp"
+#include "mote/app/commands/rtl_options.hpp"
 #include "mote/app/files/output.hpp"
 #include "mote/app/files/recording_file.hpp"
 #include "mote/base/refusal.hpp"
 
 namespace mote {
 namespace {
-
-using hardware::Architecture;
-using hardware::architectures;
-
-constexpr long long kMostParticles = 65536;
-
-CircuitDesign design_from(const Arguments& arguments) {
-  std::vector<std::string> names;
-  for (const Architecture& one : architectures()) names.emplace_back(one.name);
-  CircuitDesign design;
-  design.architecture = &architectures()[arguments.choice("--arch", names)];
-  const long long particles = arguments.integer("--particles", 1, kMostParticles);
-  design.registers.particles = static_cast<std::uint32_t>(particles);
-  design.registers.draws = static_cast<std::uint32_t>(
-      arguments.given("--draws") ? arguments.integer("--draws", particles, kMostParticles) : particles);
-  design.registers.burn_in = static_cast<std::uint32_t>(arguments.integer("--burn-in", 0, kMostParticles));
-  design.registers.chain_mean = arguments.given("--chain-mean");
-  design.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 0, 9223372036854775807LL));
-  return design;
-}
-
-/// Registers that the architecture does not have are no use to be told.
-void refuse_unread(const Arguments& arguments, const Architecture& architecture) {
-  const std::map<std::string, std::string> registers{
-      {"--draws", "draws"}, {"--burn-in", "burn_in"}, {"--chain-mean", "chain_mean"}, {"--lanes", "lanes"}};
-  for (const auto& [option, name] : registers)
-    if (arguments.given(option) && std::none_of(architecture.registers.begin(), architecture.registers.end(),
-                                                [&](const auto& one) { return one.name == name; }))
-      throw Refusal(ExitCode::kWrongUse, {arguments.where(), option, "an architecture that has it",
-                                          std::string(architecture.name), "Leave it out, or pass another --arch."});
-}
 
 /// The model as the recording sizes it; without one as --columns does.
 Job job_from(const Arguments& arguments) {
@@ -62,11 +32,6 @@ Job job_from(const Arguments& arguments) {
   return job;
 }
 
-std::optional<hardware::Family> family_from(const Arguments& arguments) {
-  if (!arguments.given("--synth")) return std::nullopt;
-  return static_cast<hardware::Family>(arguments.choice("--synth", {"xc7", "ice40", "ecp5"}));
-}
-
 /// Whatever the command reads is not to be written over.
 void protect_inputs(OutputSet& outputs, const Arguments& arguments) {
   outputs.protect(arguments.text("--simulate"));
@@ -83,8 +48,7 @@ Recording drawn_recording(const CatalogueModel& model) {
 }
 
 ExitCode run_rtl(const Arguments& arguments) {
-  const CircuitDesign design = design_from(arguments);
-  refuse_unread(arguments, *design.architecture);
+  const CircuitDesign design = circuit_design_from(arguments);
   const Job job = job_from(arguments);
   const std::optional<hardware::Family> family = family_from(arguments);
   OutputSet outputs;
@@ -111,26 +75,21 @@ ExitCode run_rtl(const Arguments& arguments) {
 }  // namespace
 
 Command rtl_command() {
-  std::string kinds;
-  for (const Architecture& one : architectures()) kinds += (kinds.empty() ? "" : ", ") + std::string(one.name);
+  std::vector<OptionSpec> options{
+      {"--set", "NAME=VALUE", "", "set a parameter of the model; may be repeated [its defaults]", "Model", true},
+      {"--columns", "M", "1", "doa: directions per frame, from 1 to 64; with --simulate the data say", "Model"}};
+  for (OptionSpec& option : circuit_options()) options.push_back(std::move(option));
+  for (OptionSpec& option : std::vector<OptionSpec>{
+           {"--simulate", "FILE", "", "a recording as CSV to simulate clock by clock (Verilator) [none]", "Checks"},
+           {"--truth", "FILE", "", "true states as CSV, to score against [none]", "Checks"},
+           {"--out", "DIR", "", "folder for the design: SystemVerilog, tables, scripts, testbench [none]", "Output"},
+           {"--json", "FILE", "", "figures as JSON; - is standard output [none]", "Output"},
+           {"--report", "FILE", "", "report, one HTML file [none]", "Output"}})
+    options.push_back(std::move(option));
   return {"rtl",
           "Write a model's filter as a circuit",
           {{"MODEL", "a model of the catalogue (see mote models), or a .toml file"}},
-          {{"--set", "NAME=VALUE", "", "set a parameter of the model; may be repeated [its defaults]", "Model", true},
-           {"--columns", "M", "1", "doa: directions per frame, from 1 to 64; with --simulate the data say", "Model"},
-           {"--arch", "KIND", "imh", "kind of filter: " + kinds, "Circuit"},
-           {"-n,--particles", "N", "1000", "particles, from 1 to 65536", "Circuit"},
-           {"--draws", "Q", "", "imh: proposals a step beside the burn-in, at least N [N]", "Circuit"},
-           {"--burn-in", "NB", "0", "imh: proposals that the chain forgets", "Circuit"},
-           {"--chain-mean", "", "", "imh: estimate from the kept states instead of all weighted proposals", "Circuit"},
-           {"--lanes", "L", "1", "lanes side by side (chains, where there are chains)", "Circuit"},
-           {"--seed", "S", "1", "seed of the circuit's generators; same seed, same words", "Circuit"},
-           {"--simulate", "FILE", "", "a recording as CSV to simulate clock by clock (Verilator) [none]", "Checks"},
-           {"--truth", "FILE", "", "true states as CSV, to score against [none]", "Checks"},
-           {"--synth", "FAMILY", "", "what it takes of a device: xc7, ice40 or ecp5 (Yosys, nextpnr) [none]", "Checks"},
-           {"--out", "DIR", "", "folder for the design: SystemVerilog, tables, scripts, testbench [none]", "Output"},
-           {"--json", "FILE", "", "figures as JSON; - is standard output [none]", "Output"},
-           {"--report", "FILE", "", "report, one HTML file [none]", "Output"}},
+          std::move(options),
           run_rtl,
           "Exit codes: 0 done, 2 wrong use, 3 bad data, 5 outside tool, 6 cannot write."};
 }
