@@ -78,8 +78,8 @@ std::vector<std::vector<std::int64_t>> observed_by(const FilterCircuit& circuit,
   return observed;
 }
 
-CircuitSimulation simulated(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
-                            const std::string& where) {
+CircuitSimulation simulated_run(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
+                                const std::string& where) {
   const auto observed = observed_by(circuit, recording, where);
   hardware::Simulator simulator(*circuit.machine);
   const hardware::CircuitRun run = simulator.run(design.registers, observed);
