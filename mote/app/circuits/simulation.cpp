@@ -89,7 +89,8 @@ CircuitSimulation simulated_run(const FilterCircuit& circuit, const CircuitDesig
 
 RunRecord golden_run(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
                      const std::string& where) {
-  const auto golden = design.architecture->golden(circuit.datapath.arithmetic, design.seed);
+  const auto golden =
+      design.architecture->golden(circuit.datapath.arithmetic, design.seed, circuit.machine->capacity());
   golden->start(design.registers);
   std::vector<hardware::Estimate> estimates;
   for (const auto& step : observed_by(circuit, recording, where)) estimates.push_back(golden->step(step));

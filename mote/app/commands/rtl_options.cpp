@@ -1,7 +1,7 @@
 #include "mote/app/commands/rtl_options.hpp"
 
 #include <algorithm>
-#include <map>
+#include <tuple>
 
 #include "mote/base/refusal.hpp"
 
@@ -13,13 +13,20 @@ using hardware::architectures;
 
 constexpr long long kMostInCircuit = 65536;
 
-/// Registers that the architecture does not have are no use to be told.
-void refuse_unread(const Arguments& arguments, const Architecture& architecture) {
-  const std::map<std::string, std::string> registers{
-      {"--draws", "draws"}, {"--burn-in", "burn_in"}, {"--chain-mean", "chain_mean"}, {"--lanes", "lanes"}};
-  for (const auto& [option, name] : registers)
-    if (arguments.given(option) && std::none_of(architecture.registers.begin(), architecture.registers.end(),
-                                                [&](const auto& one) { return one.name == name; }))
+/// What an architecture has no register or room for is no use to be asked for.
+void refuse_unread(const Arguments& arguments, const CircuitDesign& design) {
+  const Architecture& architecture = *design.architecture;
+  const auto has = [&](const std::string& name) {
+    return std::any_of(architecture.registers.begin(), architecture.registers.end(),
+                       [&](const auto& one) { return one.name == name; });
+  };
+  const hardware::RunRegisters& r = design.registers;
+  const std::tuple<const char*, bool, bool> options[] = {{"--draws", r.draws != r.particles, has("draws")},
+                                                         {"--burn-in", r.burn_in != 0, has("burn_in")},
+                                                         {"--chain-mean", r.chain_mean, has("chain_mean")},
+                                                         {"--lanes", design.lanes != 1, architecture.has_lanes}};
+  for (const auto& [option, asked, taken] : options)
+    if (asked && !taken)
       throw Refusal(ExitCode::kWrongUse, {arguments.where(), option, "an architecture that has it",
                                           std::string(architecture.name), "Leave it out, or pass another --arch."});
 }
@@ -51,7 +58,8 @@ CircuitDesign circuit_design_from(const Arguments& arguments) {
   design.registers.burn_in = static_cast<std::uint32_t>(arguments.integer("--burn-in", 0, kMostInCircuit));
   design.registers.chain_mean = arguments.given("--chain-mean");
   design.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 0, 9223372036854775807LL));
-  refuse_unread(arguments, *design.architecture);
+  design.lanes = static_cast<unsigned>(arguments.integer("--lanes", 1, 256));
+  refuse_unread(arguments, design);
   return design;
 }
 

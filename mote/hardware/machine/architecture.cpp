@@ -28,7 +28,7 @@ class GoldenOf final : public Golden {
 };
 
 template <class Filter>
-std::unique_ptr<Golden> golden_of(const Arithmetic& arithmetic, std::uint64_t seed) {
+std::unique_ptr<Golden> golden_of(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity&) {
   return std::make_unique<GoldenOf<Filter>>(arithmetic, seed);
 }
 
@@ -43,14 +43,14 @@ const Register kChainMean{"chain_mean", "1: the mean over the kept states, 0: ov
 unsigned bits_for(std::uint32_t count) { return static_cast<unsigned>(ceil_log2(count)); }
 
 /// A chain keeps `most` particles of up to 2^at proposals.
-Capacity chain_capacity(const RunRegisters& r) {
+Capacity chain_capacity(const RunRegisters& r, unsigned lanes) {
   const std::uint32_t most = std::max(2U, std::bit_ceil(r.particles));
-  return {std::max(bits_for(r.proposals()), bits_for(most)), most};
+  return {std::max(bits_for(r.proposals()), bits_for(most)), most, lanes};
 }
 
-Capacity cloud_capacity(const RunRegisters& r) {
+Capacity cloud_capacity(const RunRegisters& r, unsigned lanes) {
   const unsigned at = std::max(2U, bits_for(r.particles));
-  return {at, 1U << at};
+  return {at, 1U << at, lanes};
 }
 
 std::vector<Parameter> chain_parameters(const Capacity& c) { return {parameter("Most", static_cast<int>(c.most))}; }
@@ -73,6 +73,7 @@ const std::vector<Architecture>& architectures() {
        "mote_imh",
        "mote/hardware/filters/imh.hpp",
        {kParticles, kDraws, kBurnIn, kChainMean},
+       false,
        true,
        5,
        chain_parameters,
@@ -84,6 +85,7 @@ const std::vector<Architecture>& architectures() {
        "mote_sisr",
        "mote/hardware/filters/sisr.hpp",
        {kParticles},
+       false,
        false,
        8,
        no_parameters,

@@ -54,7 +54,9 @@ TEST_P(Machines, EqualTheirGoldenModels) {
   circuit.reset();
   const CircuitRun run = circuit.run({50, 60, 5, false}, observed);
   EXPECT_EQ(agreement(run, *machine.golden(), {50, 60, 5, false}, observed).mismatches, 0U);
-  EXPECT_GE(agreement(run, *GetParam()->golden(machine.model().arithmetic, 8), {50, 60, 5, false}, observed).mismatches,
+  EXPECT_GE(agreement(run, *GetParam()->golden(machine.model().arithmetic, 8, machine.capacity()), {50, 60, 5, false},
+                      observed)
+                .mismatches,
             5U * 45)
       << "the twin";
 }
