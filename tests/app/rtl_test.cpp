@@ -57,7 +57,9 @@ TEST(Rtl, SimulatesARecording) {
       std::istringstream fields(line);
       std::string t, mean, step;
       std::getline(std::getline(std::getline(fields, t, ','), mean, ','), step, ',');
-      if (t == "9") EXPECT_EQ(std::stod(step), 0);
+      if (t == "9") {
+        EXPECT_EQ(std::stod(step), 0);
+      }
       evidence += std::stod(step);
     }
     EXPECT_EQ(rows, 41);
