@@ -27,8 +27,8 @@ TEST(Lowered, HasNoTypesReturnsOrArrays) {
 /// design  every kind of filter, simulated from lowered modules against its golden model
 TEST(Lowered, ComputesTheSame) {
   for (const Architecture& architecture : architectures()) {
-    const RunRegisters registers{60, 70, 5, false};
-    const Machine machine(local_level_circuit(), architecture, registers);
+    const RunRegisters registers{60, 72, 5, false};
+    const Machine machine(local_level_circuit(), architecture, registers, 1, std::min(4U, architecture.most_lanes));
     Simulator circuit(machine, Simulator::Text::kLowered);
     const auto observed = level_observations(10, 4);
     const Agreement found = agreement(circuit.run(registers, observed), *machine.golden(), registers, observed);

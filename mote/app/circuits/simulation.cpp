@@ -31,15 +31,14 @@ void refuse_crowded(const ObservedStep& step, const std::string& where) {
 EstimateRow row_of(const FilterCircuit& circuit, const CircuitDesign& design, Step t, bool seen,
                    const hardware::Estimate& estimate) {
   const hardware::Datapath& path = circuit.datapath;
-  const bool chain = design.architecture->chain;
-  const std::uint64_t offered = chain ? design.registers.proposals() : design.registers.particles;
+  const std::uint64_t offered = design.architecture->offered(design.registers, design.lanes);
   EstimateRow row{t, {}, {}, {}};
   for (std::size_t d = 0; d < path.states.size(); ++d) row.states.push_back({path.mean(d, estimate.mean[d]), kNaN});
   const double octaves = hardware::log2_evidence(estimate, path.arithmetic.formats, offered) + path.constant;
   row.report.log_evidence = seen ? octaves * std::numbers::ln2 : 0;
   row.report.ess = kNaN;
-  if (chain && offered > 1)
-    row.report.acceptance = static_cast<double>(estimate.accepted) / static_cast<double>(offered - 1);
+  if (design.architecture->chain && offered > design.lanes)
+    row.report.acceptance = static_cast<double>(estimate.accepted) / static_cast<double>(offered - design.lanes);
   return row;
 }
 

@@ -41,7 +41,7 @@ double CircuitBench::step_cycles_over_law(const Recording& recording) {
     return static_cast<double>(simulator.run(design_.registers, {observed.begin(), end}).cycles);
   };
   const hardware::ImhLatency latency(circuit().machine->formats());
-  const double law = sequential_time(design_.registers.proposals(), {1, 1, 1},
+  const double law = sequential_time(design_.registers.proposals(design_.lanes), {1, 1, 1},
                                      {static_cast<double>(latency.propose), static_cast<double>(latency.weigh)});
   return (cycles(observed.size()) - cycles(1)) / (static_cast<double>(observed.size() - 1) * law);
 }

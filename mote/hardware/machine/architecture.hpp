@@ -51,12 +51,16 @@ struct Architecture {
   std::string_view module;                                ///< of the library
   std::string_view golden_file;                           ///< where its golden model stands
   std::vector<Register> registers;                        ///< beside start, steps and busy
-  bool has_lanes = false;                                 ///< as many as --lanes says; others have one
+  unsigned most_lanes = 1;                                ///< as many as --lanes says, a power of two
   bool chain = false;                                     ///< a chain decides; estimates say how often it moved
   unsigned stages = 0;                                    ///< of its pipeline, beside the model's
   std::vector<Parameter> (*parameters)(const Capacity&);  ///< that other kinds do not have
   std::string (*range)(const Capacity&);                  ///< of its registers, for the data sheet
   Capacity (*capacity)(const RunRegisters& most, unsigned lanes);
+  /// Proposals of a step, of all lanes.
+  std::uint64_t offered(const RunRegisters& r, unsigned lanes) const {
+    return chain ? std::uint64_t{lanes} * r.proposals(lanes) : r.particles;
+  }
   std::unique_ptr<Golden> (*golden)(const Arithmetic&, std::uint64_t seed, const Capacity&);
 };
 
