@@ -90,7 +90,7 @@ std::pair<Paired, Paired> growth_accuracy(const AccuracyDesign& design) {
   std::pair<Paired, Paired> all;
   for (std::uint64_t seed = 1; seed <= design.recordings; ++seed) {
     Recording recording = statistics::simulate(model, design.steps, seed).recording;
-    for (const Column& column : model.columns()) recording.observations.push_back(column.name);
+    recording.observations = model.columns();
     const auto exact = solver->solve(recording).value().means;
     Sisr sisr(growth.datapath.arithmetic, seed);
     sisr.start(design.particles);
