@@ -39,7 +39,7 @@ struct AccuracyDesign {
   std::size_t recordings = 1;
   std::uint32_t particles = 1000;
   Step steps = 50;
-  bool halved = false;  ///< the twin that must fail: log weights are half of what they should be
+  bool quartered = false;  ///< the twin that must fail: log weights are a quarter of what they should be
 };
 
 /// The distance of means, by step and state, from the exact ones.
@@ -79,11 +79,11 @@ template <std::size_t Copies>
 std::pair<Paired, Paired> growth_accuracy(const AccuracyDesign& design) {
   const Ungm<Copies> model;
   Subject growth = subject("growth", *catalogue_model("ungm", {"copies=" + std::to_string(Copies)}));
-  if (design.halved) {
+  if (design.quartered) {
     auto& weigh = growth.datapath.arithmetic.weigh;
     weigh = [full = weigh](unsigned t, Observed y, const Particles& x, std::span<std::int64_t> log_weights) {
       full(t, y, x, log_weights);
-      for (std::int64_t& log_weight : log_weights) log_weight /= 2;
+      for (std::int64_t& log_weight : log_weights) log_weight /= 4;
     };
   }
   const auto solver = referee::solver_of(model);
