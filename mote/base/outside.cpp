@@ -27,8 +27,10 @@ OutsideEnd run_outside(const std::string& program, const std::vector<std::string
   const File out(std::tmpfile(), std::fclose);
   const File err(std::tmpfile(), std::fclose);
   if (out == nullptr || err == nullptr) return {.error = errno};
-  std::vector<char*> arguments{const_cast<char*>(program.c_str())};
-  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  std::vector<std::string> own{program};  // what posix_spawnp() takes is not const
+  own.insert(own.end(), words.begin(), words.end());
+  std::vector<char*> arguments;
+  for (std::string& word : own) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t streams;
   posix_spawn_file_actions_init(&streams);

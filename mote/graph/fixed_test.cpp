@@ -48,6 +48,7 @@ TEST(Format, IsTheSmallestThatHoldsAnInterval) {
   EXPECT_EQ(format_for({0, 0.2}, 8), (Format{false, -2, 8}));
   EXPECT_EQ(format_for({-kInfinity, kInfinity}, 10, 30).bits(), 30);
   EXPECT_EQ(format_for({0, 0}, 10).bits(), 1);
+  EXPECT_EQ(format_for({-3e5, 1e6}, 24, 40), (Format{true, 20, 19})) << "bits before the point come first";
 }
 
 // claim    the integer twins round the exact result once

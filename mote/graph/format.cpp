@@ -44,8 +44,9 @@ Format format_for(const Interval& interval, int fraction, int most) {
   const bool sign = interval.low < 0;
   int integer = 1 - fraction - (sign ? 1 : 0);  // one bit
   const int bound = most - fraction - (sign ? 1 : 0);
-  while (integer < bound && !holds(interval, sign, integer)) ++integer;
-  return {sign, integer, fraction};
+  if (!std::isfinite(interval.low) || !std::isfinite(interval.high)) return {sign, bound, fraction};
+  while (!holds(interval, sign, integer)) ++integer;
+  return {sign, integer, fraction - std::max(0, integer - bound)};
 }
 
 std::string name_of(const Format& format) {

@@ -42,7 +42,8 @@ double from_fixed(std::int64_t raw, const Format& format);
 /// raw 2^-fraction in the format, for a number with another fraction.
 std::int64_t rescaled(Wide raw, int fraction, const Format& format, Rounding rounding);
 
-/// The smallest format with that fraction which holds an interval; at most `most` bits, which it then saturates at.
+/// The smallest format with that fraction which holds an interval. Where that takes more than `most` bits the fraction
+/// is shorter; an interval without end has `most` bits and saturates.
 Format format_for(const Interval& interval, int fraction, int most = 40);
 
 /// "s5.12": sign, bits before and after the point; "u" without a sign.

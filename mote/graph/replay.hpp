@@ -10,6 +10,17 @@
 
 namespace mote::graph {
 
+/// Double.
+struct PlainArithmetic {
+  using Number = double;
+
+  static double number(Id, double value) { return value; }
+  static double value(Id, double number) { return number; }
+  static double compute(Id, const Vertex& vertex, const std::array<double, 4>& operands) {
+    return apply<double>(vertex.op, operands);
+  }
+};
+
 /// Double, and what every vertex has been.
 class WatchedArithmetic {
  public:

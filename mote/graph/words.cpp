@@ -24,9 +24,10 @@ Interval input_range(const Vertex& v, const Interval& seen, double margin) {
 /// A constant in as few bits as say the same at that fraction.
 Format format_of_constant(double value, int fraction, int most) {
   Format format = format_for({value, value}, fraction, most);
+  const int start = format.fraction;
   const std::int64_t raw = to_fixed(value, format, Rounding::kNearest);
   while (format.bits() > 1 && format.fraction > -format.integer + 1 &&
-         raw % (std::int64_t{2} << (fraction - format.fraction)) == 0)
+         raw % (std::int64_t{2} << (start - format.fraction)) == 0)
     --format.fraction;
   return format;
 }
@@ -83,6 +84,7 @@ class Search {
   /// Takes bits off each vertex, in halving strides.
   void shorten_each() {
     const FixedPoint start = point();
+    for (Id id = 0; id < graph_.size(); ++id) fraction_[id] = std::min(fraction_[id], start.formats[id].fraction);
     std::vector<Id> order;
     for (Id id = 0; id < graph_.size(); ++id)
       if (used_[id]) order.push_back(id);

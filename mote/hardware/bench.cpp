@@ -103,8 +103,12 @@ std::string bench_module(const std::string& name, const std::vector<Circuit>& ci
 }
 
 void write_bench(const std::string& folder, const std::string& name, const std::vector<Circuit>& circuits) {
-  write_rtl_library(folder);
-  write_text(folder + name + ".sv", bench_module(name, circuits, folder));
+  std::string texts = bench_module(name, circuits, folder);
+  write_text(folder + name + ".sv", texts);
+  for (const Circuit& circuit : circuits)
+    for (const Source& source : circuit.sources) texts += source.text;
+  for (const RtlFile& file : needed_of_library(texts))
+    write_text(folder + std::string(file.name), std::string(file.text));
   for (std::size_t c = 0; c < circuits.size(); ++c) {
     for (const Source& source : circuits[c].sources) write_text(folder + source.name + ".sv", source.text);
     for (const Memory& memory : circuits[c].memories)

@@ -48,7 +48,7 @@ class Compound {
     Circuit circuit;  ///< an input and a constant have no module, one output and no twin
     Twin twin;
     std::vector<Wire> operands;
-    int ready = 0;       ///< the clock after which its outputs are there
+    int ready = 0;        ///< the clock after which its outputs are there
     bool stands = false;  ///< never changes, or not while rows go through
     bool fixed = false;   ///< a constant
     Word word = 0;

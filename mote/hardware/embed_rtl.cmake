@@ -1,6 +1,6 @@
-# cmake -DFILES=<files, by commas> -DOUT=<source file> -P embed_rtl.cmake
+# cmake -DFILES=<files, by commas> -DOUT=<source file> -DHEADER=<declares it> -DFUNCTION=<name> -P embed_rtl.cmake
 #
-# Writes a C++ source whose mote::hardware::rtl_library() holds the files' names and texts as raw strings.
+# Writes a C++ source whose mote::hardware::<name>() holds the files' names and texts as raw strings.
 string(REPLACE "," ";" FILES "${FILES}")
 list(SORT FILES)
 set(rows "")
@@ -13,5 +13,5 @@ foreach(path IN LISTS FILES)
   endif()
   string(APPEND rows "    {\"${name}\", R\"mote_rtl(${text})mote_rtl\"},\n")
 endforeach()
-file(WRITE "${OUT}" "#include \"mote/hardware/rtl_library.hpp\"\n\nnamespace mote::hardware {\n\nstd::span<const RtlFile> rtl_library() {\n"
+file(WRITE "${OUT}" "#include \"${HEADER}\"\n\nnamespace mote::hardware {\n\nstd::span<const RtlFile> ${FUNCTION}() {\n"
      "  static constexpr RtlFile kFiles[] = {\n" "${rows}" "  };\n  return kFiles;\n}\n\n}  // namespace mote::hardware\n")

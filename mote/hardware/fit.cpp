@@ -181,7 +181,8 @@ Piecewise fit_piecewise(const Function& function, const Format& x, const Format&
   constexpr std::uint64_t kMany = 4097;
   for (const std::uint64_t points : {std::uint64_t{65}, kMany}) {  // few as a rule are enough to choose by
     std::vector<Piecewise> found;
-    for (shape.bottom = shape.u_bits(); shape.bottom >= 1; --shape.bottom) improve(found, function, shape, goal, points);
+    for (shape.bottom = shape.u_bits(); shape.bottom >= 1; --shape.bottom)
+      improve(found, function, shape, goal, points);
     for (; !found.empty(); found.pop_back())
       if (good_enough(found.back(), function, goal.steps, kMany)) return std::move(found.back());
   }

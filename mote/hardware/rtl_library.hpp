@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace mote::hardware {
 
@@ -16,9 +17,7 @@ struct RtlFile {
 /// Every file of the library, in the order of the alphabet.
 std::span<const RtlFile> rtl_library();
 
-/// Writes the library into a folder that exists.
-///
-/// error   Refusal (kCannotWrite)
-void write_rtl_library(const std::string& folder);
+/// The files whose modules a text names, and those that they name in turn, in the order of the alphabet.
+std::vector<RtlFile> needed_of_library(const std::string& text);
 
 }  // namespace mote::hardware

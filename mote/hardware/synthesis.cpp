@@ -1,12 +1,14 @@
 #include "mote/hardware/synthesis.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <sstream>
 
 #include "mote/base/refusal.hpp"
 #include "mote/base/scratch_folder.hpp"
 #include "mote/hardware/bench.hpp"
+#include "mote/hardware/lowering.hpp"
 #include "mote/hardware/tools.hpp"
 
 namespace mote::hardware {
@@ -25,14 +27,6 @@ std::map<std::string, int> cells_of(const std::string& printed) {
   return cells;
 }
 
-int total(const std::map<std::string, int>& cells, const std::vector<std::string>& beginnings) {
-  int sum = 0;
-  for (const auto& [kind, count] : cells)
-    for (const std::string& beginning : beginnings)
-      if (kind.starts_with(beginning)) sum += count;
-  return sum;
-}
-
 /// LUT-RAM and shift registers as the look-up tables that they occupy.
 int memory_luts(const std::map<std::string, int>& cells) {
   static const std::map<std::string, int> sizes{{"SRL16E", 1},    {"SRLC16E", 1},  {"SRLC32E", 1},  {"RAM32X1S", 1},
@@ -42,14 +36,6 @@ int memory_luts(const std::map<std::string, int>& cells) {
   for (const auto& [kind, luts] : sizes)
     if (const auto found = cells.find(kind); found != cells.end()) sum += luts * found->second;
   return sum;
-}
-
-/// The cells that a script leaves of the modules in a folder.
-std::map<std::string, int> synthesised(const std::string& folder, const std::string& script) {
-  run_tool(
-      "yosys", "yosys",
-      {"-q", "-p", "read_verilog -sv -defer " + folder + "*.sv; " + script + "; tee -o " + folder + "stat.txt stat"});
-  return cells_of(read_text(folder + "stat.txt"));
 }
 
 /// Shift registers around a circuit, so that its ports need two pins: a chain of input bits, and a parity of registered
@@ -96,13 +82,33 @@ double clock_of(const std::string& log) {
 
 }  // namespace
 
+int total(const std::map<std::string, int>& cells, const std::vector<std::string>& beginnings) {
+  int sum = 0;
+  for (const auto& [kind, count] : cells)
+    for (const std::string& beginning : beginnings)
+      if (kind.starts_with(beginning)) sum += count;
+  return sum;
+}
+
+std::map<std::string, int> cells_after(const std::string& folder, const std::string& script) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".sv") write_text(entry.path().string(), lowered(read_text(entry.path().string())));
+  run_tool(
+      "yosys", "yosys",
+      {"-q", "-p", "read_verilog -sv -defer " + folder + "*.sv; " + script + "; tee -o " + folder + "stat.txt stat"});
+  return cells_of(read_text(folder + "stat.txt"));
+}
+
+Area xc7_area(const std::map<std::string, int>& cells) {
+  return {total(cells, {"LUT", "INV"}) + memory_luts(cells), total(cells, {"FDRE", "FDSE", "FDCE", "FDPE"}),
+          total(cells, {"DSP48E1"}), total(cells, {"RAMB18E1"}) + 2 * total(cells, {"RAMB36E1"})};
+}
+
 Area xc7_area(const Circuit& circuit) {
   const ScratchFolder scratch;
   const std::string folder = scratch.path().string() + "/";
   write_bench(folder, "core", {circuit});
-  const auto cells = synthesised(folder, "synth_xilinx -family xc7 -flatten -noiopad -top core");
-  return {total(cells, {"LUT", "INV"}) + memory_luts(cells), total(cells, {"FDRE", "FDSE", "FDCE", "FDPE"}),
-          total(cells, {"DSP48E1"}), total(cells, {"RAMB18E1"}) + 2 * total(cells, {"RAMB36E1"})};
+  return xc7_area(cells_after(folder, "synth_xilinx -family xc7 -flatten -noiopad -top core"));
 }
 
 Routed ice40_routed(const Circuit& circuit, int seed) {
@@ -110,7 +116,7 @@ Routed ice40_routed(const Circuit& circuit, int seed) {
   const std::string folder = scratch.path().string() + "/";
   write_bench(folder, "core", {circuit});
   write_text(folder + "around.sv", surroundings(circuit));
-  const auto cells = synthesised(folder, "synth_ice40 -top around -json " + folder + "netlist.json");
+  const auto cells = cells_after(folder, "synth_ice40 -top around -json " + folder + "netlist.json");
   run_tool("nextpnr-ice40", "nextpnr-ice40",
            {"--hx8k", "--package", "ct256", "--seed", std::to_string(seed), "--freq", "150", "--timing-allow-fail",
             "--json", folder + "netlist.json", "--log", folder + "log.txt", "-q"});

@@ -1,6 +1,7 @@
 #pragma once
 /// What a circuit costs: area by Yosys, clock rate by place and route.
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,18 @@ struct Area {
 /// error   Refusal (kOutsideTool) when yosys is missing or fails
 /// cost    1 to 20 s
 Area xc7_area(const Circuit& circuit);
+
+/// The number of cells of each kind that a Yosys script leaves of the modules in a folder (with its closing slash),
+/// which are lowered for it.
+///
+/// error   Refusal (kOutsideTool) when yosys is missing or fails
+std::map<std::string, int> cells_after(const std::string& folder, const std::string& script);
+
+/// How many cells are of kinds with these beginnings.
+int total(const std::map<std::string, int>& cells, const std::vector<std::string>& beginnings);
+
+/// The area of those of synth_xilinx.
+Area xc7_area(const std::map<std::string, int>& cells);
 
 /// A circuit placed and routed on an iCE40 HX8K (no DSP blocks: products are logic), between shift registers.
 struct Routed {

@@ -28,8 +28,8 @@ TEST(Graph, ShowsEveryModel) {
 }
 
 // claim    the formats found keep the filter's error within the budget on recordings that the search has not seen
-// referee  the double filter, same draws
-// design   20 recordings of 50 steps, 300 particles; one fixed seed; the budget of 1 % and as much again for the choice
+// referee  the double filter, same draws and ancestors
+// design   10 recordings of 50 steps, 300 particles; one fixed seed; the budget of 1 % and as much again for the choice
 // twin     a budget of 50 %, which must take fewer bits
 TEST(Graph, FindsWordsThatKeepTheError) {
   const Scratch scratch;

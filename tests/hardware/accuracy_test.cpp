@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "tests/hardware/accuracy.hpp"
+
+#include <gtest/gtest.h>
 
 namespace mote::hardware {
 namespace {

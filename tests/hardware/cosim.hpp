@@ -15,7 +15,8 @@ inline Table stimuli(const Circuit& circuit, std::size_t rows, Xoshiro& bits) {
     const auto word = [&] {
       const std::uint64_t value = bits.next();
       const std::uint64_t size = bits.next();
-      const int drop = 64 - port.width + ((size & 1U) != 0 ? static_cast<int>((size >> 1U) % static_cast<unsigned>(port.width)) : 0);
+      const int drop =
+          64 - port.width + ((size & 1U) != 0 ? static_cast<int>((size >> 1U) % static_cast<unsigned>(port.width)) : 0);
       return port.sign ? static_cast<Word>(value) >> drop : static_cast<Word>(value >> drop);
     };
     std::vector<Word>& column = table.emplace_back(rows);

@@ -10,7 +10,8 @@ TEST(DatapathCircuitsNightly, EqualTheirTwins) {
 
 // claim    the same of circuits of logic alone and of CORDIC
 TEST(DatapathCircuitsNightly, EqualTheirTwinsInLogicAndCordic) {
-  EXPECT_GE(expect_equal_to_circuits(subjects({.multiplier = Multiplier::kLogic, .form = Form::kCordic}), 25, 4000), 2'000'000U);
+  EXPECT_GE(expect_equal_to_circuits(subjects({.multiplier = Multiplier::kLogic, .form = Form::kCordic}), 25, 4000),
+            2'000'000U);
 }
 
 }  // namespace

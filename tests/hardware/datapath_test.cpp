@@ -19,7 +19,8 @@ class CallInputs {
   CallInputs(const graph::Recorded& recorded, const Samples::Call& call) : graph_(recorded.graph), call_(call) {}
   double operator()(Role role, std::uint32_t index) const {
     for (graph::Id id = 0; id < graph_.size(); ++id)
-      if (const Vertex& v = graph_[id]; v.op == graph::Op::kInput && v.role == role && v.index == index) return call_[id];
+      if (const Vertex& v = graph_[id]; v.op == graph::Op::kInput && v.role == role && v.index == index)
+        return call_[id];
     return 0;
   }
 

@@ -45,8 +45,8 @@ double software(const Recording& recording, const std::vector<referee::Gaussian>
 double circuit(const hardware::ImhRegisters& registers, unsigned shrink, const Recording& recording,
                const std::vector<referee::Gaussian>& laws, std::uint64_t seed) {
   hardware::Arithmetic model = hardware::cosim::local_level();
-  model.weigh = [weigh = model.weigh, shrink](unsigned t, hardware::Observed observed, const hardware::Particles& states,
-                                              std::span<std::int64_t> log_weights) {
+  model.weigh = [weigh = model.weigh, shrink](unsigned t, hardware::Observed observed,
+                                              const hardware::Particles& states, std::span<std::int64_t> log_weights) {
     weigh(t, observed, states, log_weights);
     for (std::int64_t& log_weight : log_weights) log_weight >>= shrink;
   };

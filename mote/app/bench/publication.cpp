@@ -96,7 +96,7 @@ std::vector<std::string> notes_of(const Report& report) {
   std::vector<std::string> notes;
   notes.push_back(
       fmt::format("ns: per particle and step, median of {} rounds in which all took turns; CPU time of the thread, for "
-                  "the tasks threads and pipeline wall-clock.",
+                  "the tasks threads, ranks and pipeline wall-clock.",
                   report.repeats));
   notes.emplace_back(
       "x, of limit: ratios of times within a round, their median and 95 % interval (bootstrap of rounds).");

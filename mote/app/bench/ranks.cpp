@@ -32,9 +32,10 @@ struct Ground {
 void run_or_refuse(const std::string& program, const std::vector<std::string>& words) {
   const OutsideEnd end = run_outside(program, words);
   if (end.error == 0 && end.code == 0) return;
-  throw Refusal(ExitCode::kOutsideTool,
-                {fmt::format("mote bench: {} {}", program, fmt::join(words, " ")), "", "a run that ends with exit code 0",
-                 fmt::format("{} and \"{}\"", end.code, end.err), "Run it alone to see what it lacks."});
+  throw Refusal(
+      ExitCode::kOutsideTool,
+      {fmt::format("mote bench: {} {}", program, fmt::join(words, " ")), "", "a run that ends with exit code 0",
+       fmt::format("{} and \"{}\"", end.code, end.err), "Run it alone to see what it lacks."});
 }
 
 /// How an entrant runs: words before those of `mote run`, words after them, and how many processes share the particles
@@ -77,7 +78,8 @@ class ProcessRacer final : public Racer {
   void run_part(std::size_t part) const {
     std::vector<std::string> words = manner_.before;
     words.insert(words.end(), {beside("mote"), "run", "ungm", "--data", ground_->data});
-    words.insert(words.end(), {"-n", std::to_string(particles_of(part)), "--seed", std::to_string(seed_ + 1000 * part)});
+    words.insert(words.end(),
+                 {"-n", std::to_string(particles_of(part)), "--seed", std::to_string(seed_ + 1000 * part)});
     words.insert(words.end(), {"--out", file("means.csv", part), "--summary", file("summary.json", part)});
     words.insert(words.end(), manner_.after.begin(), manner_.after.end());
     run_or_refuse(words.front(), {words.begin() + 1, words.end()});

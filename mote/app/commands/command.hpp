@@ -83,6 +83,7 @@ Command simulate_command();
 Command simulate_cluster_command();
 Command compare_command();
 Command graph_command();
+Command rtl_command();
 Command bench_command();
 Command reproduce_command();
 

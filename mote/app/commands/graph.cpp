@@ -86,11 +86,11 @@ void print(const Found& found) {
   const std::vector<bool> used = graph::reached(found.recorded.graph, outputs);
   for (const auto& [name, count] : graph::operations(found.recorded.graph, outputs))
     fmt::print("{:>4} {}\n", count, name);
-  fmt::print("\n{:<6}{:<30}{:>26}{:>26}{}\n", "vertex", "what", "seen", "range", found.words ? "    format  bits" : "");
+  fmt::print("\n{:<8}{:<30}{:>26}{:>26}{}\n", "vertex", "what", "seen", "range", found.words ? "    format  bits" : "");
   for (graph::Id id = 0; id < found.recorded.graph.size(); ++id) {
     if (!used[id]) continue;
     const auto shown = [](const graph::Interval& i) { return fmt::format("[{:.5g}, {:.5g}]", i.low, i.high); };
-    fmt::print("{:<6}{:<30}{:>26}{:>26}", fmt::format("v{}", id), label(found, id), shown(found.ranges.seen[id]),
+    fmt::print("{:<8}{:<30}{:>26}{:>26}", fmt::format("v{}", id), label(found, id), shown(found.ranges.seen[id]),
                shown(found.ranges.kept[id]));
     if (found.words)
       fmt::print("{:>10}{:>6}", graph::name_of(found.words->point.formats[id]), found.words->point.formats[id].bits());
@@ -136,9 +136,9 @@ Command graph_command() {
            {"--budget", "X", "0.01", "by what part the error may exceed the double filter's", "Words"},
            {"--rounding", "HOW", "nearest", "nearest or truncate", "Words"},
            {"--margin", "X", "0.25", "by what part ranges are wider than what was seen", study},
-           {"-n,--particles", "N", "500", "particles of the filter", study},
+           {"-n,--particles", "N", "200", "particles of the filter", study},
            {"--steps", "T", "50", "steps of a recording", study},
-           {"--recordings", "R", "20", "recordings", study},
+           {"--recordings", "R", "10", "recordings", study},
            {"--seed", "S", "1", "seed, an integer of at least 0; same seed, same result", study},
            {"--dot", "FILE", "", "the graph for Graphviz [none]", "Output"},
            {"--list", "FILE", "", "the graph as lines of text [none]", "Output"},

@@ -18,10 +18,10 @@ constexpr std::int64_t kMostSteps = 1'000'000;
 constexpr std::int64_t kMostRepeats = 10'000;
 
 /// Kinds in the order of the enumeration.
-constexpr std::array<std::string_view, 15> kKinds{
+constexpr std::array<std::string_view, 16> kKinds{
     "mean-difference", "mean-spread",      "rmse",    "normalised-error", "final-bias",    "reference-error",
     "recovered",       "evidence-spread",  "summary", "resample-error",   "resample-time", "resample-cost",
-    "track",           "particles-enough", "cluster"};
+    "track",           "particles-enough", "cluster", "circuit"};
 constexpr std::array<std::string_view, 3> kUnits{"standard-error", "posterior-sd", "absolute"};
 constexpr std::array<std::string_view, 2> kMiddles{"mean", "median"};
 
@@ -111,6 +111,7 @@ std::vector<Run> runs_from(Fields fields, const Item& item) {
   Run run{fields.where(), fields.text("name"), fields.texts("options"), {}};
   const bool filters = !item.clip && !item.cluster;
   if (filters) run.settings = fields.texts("set");
+  if (filters && !item.weights) run.circuit = fields.yes("circuit");
   const std::string swept = filters ? fields.text_or("sweep", "") : "";
   const std::vector<int> numbers =
       item.cluster ? std::vector<int>{} : rising(fields, item.clip ? "particles" : "values");
@@ -208,6 +209,7 @@ Kind kind_from(Fields& fields, const Item& item) {
   const std::size_t count = item.weights ? 3 : item.clip ? 2 : item.cluster ? 1 : 9;
   const auto known = std::span(kKinds).subspan(first, count);
   if (!fields.has("kind")) fields.refuse("kind", fmt::format("one of {}", fmt::join(known, ", ")));
+  if (first == 0 && fields.text_or("kind", "") == kKinds.back()) return Kind::kCircuit;
   return static_cast<Kind>(fields.choice("kind", known) + first);
 }
 
@@ -229,7 +231,15 @@ Comparison comparison_from(Fields fields, const Item& item) {
     c.cast.proposers = static_cast<std::size_t>(fields.integer("proposers", 1, 64, 1));
     c.cast.weighers = static_cast<std::size_t>(fields.integer("weighers", 1, 64, 1));
   }
-  c.repeats = c.kind == Kind::kCluster ? 1 : static_cast<int>(fields.integer("repeats", 2, kMostRepeats, 20));
+  if (c.kind == Kind::kCircuit) {
+    c.key = kCircuitKeys[fields.choice("key", kCircuitKeys)];
+    for (const std::string& name : c.runs)
+      if (std::none_of(item.runs.begin(), item.runs.end(), [&](const Run& r) { return r.name == name && r.circuit; }))
+        fields.refuse("runs", "names of runs with circuit = true");
+  }
+  c.repeats = c.kind == Kind::kCluster || c.kind == Kind::kCircuit
+                  ? 1
+                  : static_cast<int>(fields.integer("repeats", 2, kMostRepeats, 20));
   read_condition(fields, c);
   c.note = fields.text_or("note", "");
   fields.finish();
@@ -324,6 +334,8 @@ std::string meaning_of(const Comparison& c) {
     case Kind::kCluster:
       return fmt::format("{} on a simulated cluster, {} proposers, {} weighers", meaning_of_key(c.key),
                          c.cast.proposers, c.cast.weighers);
+    case Kind::kCircuit:
+      return fmt::format("Figure of a circuit: {}", c.key);
     case Kind::kParticlesEnough:
       return fmt::format(
           "Particles that are enough: the least number from which on the centre error, a mean over filter seeds and "

@@ -38,7 +38,8 @@ struct Clip {
   bool drawn() const { return video.empty(); }
 };
 
-/// One filter run of an item: options as on the command line of `mote run`; of an item on a clip, of `mote track`.
+/// One filter run of an item: options as on the command line of `mote run`; of an item on a clip, of `mote track`; of a
+/// circuit, of `mote rtl`.
 struct Run {
   std::string where;
   std::string name;
@@ -47,6 +48,7 @@ struct Run {
   std::string series = {};            ///< of runs that differ in a number: the name of the table they stand in
   int number = 0;                     ///< of such a run: its particles on a clip, else the value of `sweep`
   std::string sweep = {};             ///< the option that the series sweeps
+  bool circuit = false;               ///< the golden model of a circuit filters
 };
 
 /// What is computed and compared with the paper. With one run the quantity itself; with two, the first run's over the
@@ -69,6 +71,7 @@ struct Comparison {
     kTrack,            ///< on a clip: a figure of the track's summary
     kParticlesEnough,  ///< on a clip: the least number of particles whose centre error is near that of the most
     kCluster,          ///< on a simulated cluster: time of all steps, or speed-up, of a cast
+    kCircuit,          ///< a figure of a circuit that is simulated with the item's recording, and synthesised
   };
   /// What a mean difference is measured in.
   enum class Unit { kStandardError, kPosteriorSd, kAbsolute };
@@ -130,6 +133,11 @@ inline constexpr std::array<std::string_view, 3> kAgainst{"bytes_per_step", "mes
 /// drawn; both over what the latency laws say; and the speed-up over the most that the stages' times allow.
 inline constexpr std::array<std::string_view, 5> kClusterKeys{"seconds", "speedup", "seconds_over_law",
                                                               "speedup_over_law", "speedup_over_most"};
+
+/// The figures of a circuit: of a run of the recording, of its area, and the cycles of a step over the latency law's.
+inline constexpr std::array<std::string_view, 11> kCircuitKeys{
+    "cycles",   "mismatches",          "stages", "lut", "ff", "dsp", "bram18", "fmax_mhz", "milliseconds",
+    "power_mw", "step_cycles_over_law"};
 
 /// The figures of a track that a comparison may ask for; those of time are a particle's stages in microseconds, and how
 /// much longer than the others its weight takes.

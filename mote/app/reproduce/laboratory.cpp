@@ -102,6 +102,10 @@ Laboratory::Bench Laboratory::bench_for(const Run& run) const {
   }
   bench.job.model_name = item_.recording.model;
   bench.job.model = model_with(merged(item_.recording.settings, run.settings), run.where);
+  if (run.circuit) {
+    bench.circuit = as_bad_data([&] { return std::make_shared<CircuitBench>(run, bench.job); });
+    return bench;
+  }
   as_bad_data([&] {
     bench.plan = plan();
     return bench.job.model->filter(bench.plan, run.where);  // refuses what the model does not have
@@ -142,6 +146,9 @@ void Laboratory::check_comparisons() const {
 
 std::string Laboratory::missing() const {
   if (clusters_) return clusters_->missing();
+  for (const Comparison& c : item_.comparisons)
+    if (c.kind == Kind::kCircuit)
+      if (std::string tool = benches_.at(c.runs.front()).circuit->missing(); !tool.empty()) return tool;
   const std::string clip = cinema_ ? cinema_->missing() : "";
   return clip.empty() ? "" : fmt::format("there is no {}. Set MOTE_DATA to the folder with clips/.", clip);
 }
@@ -177,6 +184,7 @@ const RunRecord& Laboratory::record(const std::string& run, std::uint64_t record
   if (!fresh && !found->second.rows.empty()) return found->second;
   Bench& bench = benches_.at(run);
   bench.job.recording = scene(recording_offset).recording;
+  if (bench.circuit) return found->second = bench.circuit->record(bench.job.recording, seed_offset);
   Plan plan = bench.plan;
   plan.seed += seed_offset;
   return found->second = run_job(bench.job, plan, request_for(bench.job, {}, item_.file), item_.file);
@@ -231,6 +239,11 @@ std::vector<double> Laboratory::sample(const Comparison& c, std::uint64_t repeat
   if (item_.weights) return {resample_figure(c, repeat, side)};
   if (cinema_) return cinema_->sample(c, repeat, side, ran_);
   if (clusters_) return {clusters_->figure(c, side, ran_)};
+  if (c.kind == Kind::kCircuit) {
+    const double figure = benches_.at(c.runs[side]).circuit->figure(c.key, scene(0).recording);
+    ran_();
+    return {figure};
+  }
   const bool one_recording = repeats_one_recording(c.kind);
   const std::uint64_t apart = c.kind == Kind::kMeanDifference ? side * static_cast<std::uint64_t>(c.repeats) : 0;
   const RunRecord& run = record(c.runs[side], one_recording ? 0 : repeat, repeat + apart);
@@ -274,6 +287,7 @@ std::vector<double> Laboratory::sample(const Comparison& c, std::uint64_t repeat
     case Kind::kTrack:
     case Kind::kParticlesEnough:
     case Kind::kCluster:
+    case Kind::kCircuit:
       break;  // of items on weights, clips and clusters
   }
   return {kNaN};

@@ -9,6 +9,7 @@
 #include "mote/app/catalogue/scene.hpp"
 #include "mote/app/commands/job.hpp"
 #include "mote/app/reproduce/cinema.hpp"
+#include "mote/app/reproduce/circuits.hpp"
 #include "mote/app/reproduce/clusters.hpp"
 #include "mote/app/reproduce/item.hpp"
 #include "mote/app/reproduce/statistics.hpp"
@@ -67,7 +68,8 @@ class Laboratory {
   explicit Laboratory(Item item);
 
   const Item& item() const { return item_; }
-  /// Why the item cannot be regenerated, in a sentence: its clip or SimGrid is missing; empty if nothing is.
+  /// Why the item cannot be regenerated, in a sentence: its clip, SimGrid or a tool for circuits is missing;
+  /// empty if nothing is.
   std::string missing() const;
   /// Filter runs that regenerate() takes, those it has made before included.
   std::size_t work() const;
@@ -78,6 +80,7 @@ class Laboratory {
   struct Bench {
     Job job;
     Plan plan;
+    std::shared_ptr<CircuitBench> circuit = nullptr;  ///< filters instead of the plan
   };
   using Level = std::pair<double, std::uint64_t>;  // of ESS, repeat
 

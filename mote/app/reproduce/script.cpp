@@ -60,11 +60,12 @@ std::string script_for(const Item& item) {
                          set_options(from.settings), data, truth);
   }
   for (const Run& run : item.runs) {
-    script += fmt::format("mote run {} --data {}{}{}", from.model, shell_word(data),
+    script += fmt::format("mote {} {} {} {}{}{}", run.circuit ? "rtl" : "run", from.model,
+                          run.circuit ? "--simulate" : "--data", shell_word(data),
                           truth.empty() ? "" : " --truth " + shell_word(truth),
                           set_options(merged(from.settings, run.settings)));
     for (const std::string& option : run.options) script += " " + shell_word(option);
-    script += fmt::format(" --out {}-{}.csv\n", base, slug(run.name));
+    script += fmt::format(" --out {}-{}{}\n", base, slug(run.name), run.circuit ? "" : ".csv");
   }
   return script;
 }

@@ -11,18 +11,23 @@ namespace mote {
 
 /// What a study simulates.
 struct WordStudyDesign {
-  std::size_t particles = 500;
+  std::size_t particles = 200;
   Step steps = 50;
-  std::size_t recordings = 20;
+  std::size_t recordings = 10;
   std::uint64_t seed = 1;
   double margin = 0.25;  ///< by which ranges are wider than what was seen
   graph::WordSearch search;
 };
 
-/// A bootstrap filter's errors in an arithmetic: RMSE to the truth by state, over recordings of one design.
+/// A bootstrap filter's error in an arithmetic, over recordings of one design.
 ///
-/// SISR, systematic at every step, weights in double; each recording has a seed of its own, the same in every
-/// arithmetic.
+///   error ratio = sqrt(1 + sum d^2 / sum e^2),   e = the double filter's mean less the truth, d = the other's mean
+///   less the double filter's
+///
+/// d counts as independent of e, since an arithmetic that brings these recordings nearer to the truth does so by
+/// chance. SISR, systematic at every step; each recording has a seed of its own. The filter in an arithmetic has the
+/// draws and the ancestors of the double filter, so that what differs is the arithmetic: filters that select by
+/// themselves part where rounding first makes another ancestor, and then differ by chance.
 class WordStudy {
  public:
   /// `first` is the number of its first recording: studies of other numbers are independent.
@@ -33,19 +38,22 @@ class WordStudy {
   graph::Ranges ranges() const;
   /// The calls of the model's functions by the double filter, from which a circuit's words are chosen.
   hardware::Samples samples() const;
-  /// The error in these formats over the double filter's: that of the state for which it is largest.
+  /// The error ratio of these formats: that of the state for which it is largest.
   double error_ratio(const graph::FixedPoint& point) const;
 
  private:
+  /// Sums of squares by state: e^2 and d^2.
+  struct Squares {
+    std::vector<double> errors, differences;
+  };
   template <class A>
-  std::vector<double> errors(const std::shared_ptr<A>& arithmetic) const;
+  Squares squares(const std::shared_ptr<A>& arithmetic) const;
 
   WordStudyDesign design_;
   std::size_t first_;
   graph::Recorded recorded_;
   std::vector<Scene> scenes_;
   std::vector<graph::Interval> seen_;
-  std::vector<double> double_errors_;
 };
 
 }  // namespace mote

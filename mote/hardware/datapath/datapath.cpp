@@ -138,7 +138,8 @@ std::vector<ObservedField> fields_of(const Plan& plan, const graph::Recorded& re
     const int bit = plan.seen_bit(id);
     std::string name = v.op == Op::kInput ? "" : "v" + std::to_string(id);
     if (bit >= 0) {
-      for (const std::uint32_t column : plan.seen[static_cast<std::size_t>(bit)]) name += recorded.columns[column].name + " ";
+      for (const std::uint32_t column : plan.seen[static_cast<std::size_t>(bit)])
+        name += recorded.columns[column].name + " ";
       name += "seen";
     } else if (v.op == Op::kInput) {
       name = recorded.name_of(v);
@@ -151,7 +152,7 @@ std::vector<ObservedField> fields_of(const Plan& plan, const graph::Recorded& re
 
 /// Evaluates what the host computes.
 std::vector<std::int64_t> computed_fields(const Plan& plan, const std::vector<Format>& formats, const Row<double>& row,
-                                   const std::vector<double>& schedule) {
+                                          const std::vector<double>& schedule) {
   std::vector<double> values;
   graph::evaluate(
       plan.graph,

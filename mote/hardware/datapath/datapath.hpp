@@ -18,14 +18,14 @@ namespace mote::hardware {
 struct DatapathOptions {
   Multiplier multiplier = Multiplier::kDsp;
   Form form = Form::kTable;
-  double margin = 0.25;  ///< by which ranges are wider than the samples
-  int more_bits = 0;     ///< after the point, for all words
-  bool fuse = true;      ///< functions of one number become one table where that is smaller
+  double margin = 0.25;               ///< by which ranges are wider than the samples
+  int more_bits = 0;                  ///< after the point, for all words
+  bool fuse = true;                   ///< functions of one number become one table where that is smaller
   std::string prefix = "mote_model";  ///< of the modules' names: <prefix>_propose and <prefix>_weigh
 };
 
-/// A number that comes with a step: a column of its row, a number of the schedule, another number that the host computes
-/// from them, or a bit "the columns were seen".
+/// A number that comes with a step: a column of its row, a number of the schedule, another number that the host
+/// computes from them, or a bit "the columns were seen".
 struct ObservedField {
   std::string name;  ///< "y", "schedule 0", "v12", "y seen"
   Format format;
@@ -36,9 +36,10 @@ struct ObservedField {
 ///
 /// propose: parents and words to states; weigh: states to log2 p(y | x) without the terms that do not depend on the
 /// state, s13.10, saturated. At t = 1 the parent's state is drawn by `initial`, then moved by `next` as later ones are;
-/// the draws of both are parts of the same words (draws.hpp). An observation that was not seen adds nothing; a term of the likelihood that reads several
-/// counts when all of them were seen. Every input of a pipeline but the observation word and first_i belongs to one
-/// particle; those two must stand from 3 clocks before the first particle of a step until its last has left.
+/// the draws of both are parts of the same words (draws.hpp). An observation that was not seen adds nothing; a term of
+/// the likelihood that reads several counts when all of them were seen. Every input of a pipeline but the observation
+/// word and first_i belongs to one particle; those two must stand from 3 clocks before the first particle of a step
+/// until its last has left.
 struct Datapath {
   Compound propose{"propose"}, weigh{"weigh"};
   Arithmetic arithmetic;                ///< formats and golden twins; `observed` has the fields in order
@@ -64,7 +65,7 @@ using Connections = std::vector<std::pair<std::string, std::string>>;
 Connections propose_connections(const Datapath& datapath);
 Connections weigh_connections(const Datapath& datapath);
 
-/// A model's datapath. Words are as short as the samples allow: docs/hardware.md.
+/// A model's datapath. Words are as short as the samples allow (precision.hpp).
 ///
 /// error   Refusal (kWrongUse) naming the vertex that no circuit exists for
 /// cost    a second: tables are fitted

@@ -164,7 +164,8 @@ int operator_cost(const Plan& plan, const Precision& precision, Id id) {
     case Op::kMultiply: {
       const bool constant = plan.graph.is_constant(v.args[0]) || plan.graph.is_constant(v.args[1]);
       if (constant) return 2 * width;
-      const int blocks = ((std::max(operand(0), operand(1)) + 24) / 25) * ((std::min(operand(0), operand(1)) + 17) / 18);
+      const int blocks =
+          ((std::max(operand(0), operand(1)) + 24) / 25) * ((std::min(operand(0), operand(1)) + 17) / 18);
       return width + blocks * kLutsOfDsp;
     }
     case Op::kDivide:

@@ -20,7 +20,9 @@ constexpr int kLeastOperand = 5;
 /// How a sum is finished: what cannot overflow needs no saturation, and what loses no bits no rounding.
 Finish finish_of(WideWord least, WideWord greatest, int fraction, const Format& y) {
   const int drop = fraction - y.fraction;
-  const auto at = [&](Word end) { return drop >= 0 ? static_cast<WideWord>(end) << drop : static_cast<WideWord>(end) >> -drop; };
+  const auto at = [&](Word end) {
+    return drop >= 0 ? static_cast<WideWord>(end) << drop : static_cast<WideWord>(end) >> -drop;
+  };
   const bool fits = least >= at(y.least()) && greatest <= at(y.greatest());
   return {drop > 0 ? Rounding::kNearest : Rounding::kDown, fits ? Overflow::kWrap : Overflow::kSaturate};
 }
@@ -104,8 +106,10 @@ Signal Mapping::by_constant(const Signal& a, Id constant, const Format& y) {
   const Word word = c.format.nearest(plan_.graph[constant].value);
   if (word == 0) return sketch_.constant(y, 0);
   const SignedDigits digits = signed_digits(word);
-  if (digits.count() == 1 && digits.minus == 0) return converted(a.times_two_to(digits.width() - 1 - c.format.fraction), y);
-  if (functions_.options().multiplier == Multiplier::kDsp && digits.count() > kMostDigits) return sketch_.product(a, c, y);
+  if (digits.count() == 1 && digits.minus == 0)
+    return converted(a.times_two_to(digits.width() - 1 - c.format.fraction), y);
+  if (functions_.options().multiplier == Multiplier::kDsp && digits.count() > kMostDigits)
+    return sketch_.product(a, c, y);
   return sketch_.op(ConstantProduct{a.format, y, word, c.format.fraction}, y, a);
 }
 
@@ -126,9 +130,10 @@ Signal Mapping::unsigned_of(const Signal& a) {
   return a.format.sign ? sketch_.convert(a, {false, a.format.integer, a.format.fraction}) : a;
 }
 
-Signal Mapping::unary(const std::string& name, const Signal& x, const Format& y, Compound (*make)(const Format&, const Format&, const FunctionOptions&)) {
-  const auto& unit = functions_.once(name + x.format.name() + " " + y.name(),
-                                     [&] { return make(x.format, y, functions_.options()); });
+Signal Mapping::unary(const std::string& name, const Signal& x, const Format& y,
+                      Compound (*make)(const Format&, const Format&, const FunctionOptions&)) {
+  const auto& unit =
+      functions_.once(name + x.format.name() + " " + y.name(), [&] { return make(x.format, y, functions_.options()); });
   return sketch_.op(unit, y, x);
 }
 
@@ -138,7 +143,8 @@ Signal Mapping::cosine_or_sine(const Vertex& v, const Format& y) {
   const std::string key = x.format.name() + " " + unit.name();
   const std::string of_this = std::to_string(v.args[0]) + " " + key;
   if (!pairs_.contains(of_this)) {
-    const auto& both = functions_.once("cosine and sine " + key, [&] { return cosine_and_sine(x.format, unit, functions_.options()); });
+    const auto& both = functions_.once("cosine and sine " + key,
+                                       [&] { return cosine_and_sine(x.format, unit, functions_.options()); });
     const Signal cosine = sketch_.op(both, unit, x);
     pairs_.insert({of_this, {cosine, {{cosine.wire.node, 1}, unit}}});
   }
@@ -150,12 +156,15 @@ Signal Mapping::angle(const Vertex& v, const Format& y) {
   const Signal b = operand(v.args[0]);
   const int fraction = std::max(2, y.fraction);
   if (v.op == Op::kAtan) {
-    const auto& unit = functions_.once("atan " + b.format.name() + " " + std::to_string(fraction), [&] { return arc_tangent(b.format, fraction, functions_.options()); });
+    const auto& unit = functions_.once("atan " + b.format.name() + " " + std::to_string(fraction),
+                                       [&] { return arc_tangent(b.format, fraction, functions_.options()); });
     return converted(sketch_.op(unit, {true, 1, fraction}, b), y);
   }
   const Signal a = operand(v.args[1]);
-  const Format point{true, std::max(a.format.integer, b.format.integer), std::max(a.format.fraction, b.format.fraction)};
-  const auto& unit = functions_.once("atan2 " + point.name() + " " + std::to_string(fraction), [&] { return arc_tangent_2(point, fraction, functions_.options()); });
+  const Format point{true, std::max(a.format.integer, b.format.integer),
+                     std::max(a.format.fraction, b.format.fraction)};
+  const auto& unit = functions_.once("atan2 " + point.name() + " " + std::to_string(fraction),
+                                     [&] { return arc_tangent_2(point, fraction, functions_.options()); });
   return converted(sketch_.op(unit, {true, 2, fraction}, converted(b, point), converted(a, point)), y);
 }
 
@@ -165,7 +174,8 @@ Signal Mapping::function(Id id, const Format& y) {
     case Op::kDivide: {
       const Signal a = operand(v.args[0]);
       const Signal b = operand(v.args[1]);
-      const auto& unit = functions_.once("divide " + a.format.name() + " " + b.format.name() + " " + y.name(), [&] { return divide(a.format, b.format, y, functions_.options()); });
+      const auto& unit = functions_.once("divide " + a.format.name() + " " + b.format.name() + " " + y.name(),
+                                         [&] { return divide(a.format, b.format, y, functions_.options()); });
       return sketch_.op(unit, y, a, b);
     }
     case Op::kSqrt:

@@ -59,7 +59,8 @@ class Mapping {
   Signal by_constant(const Signal& a, graph::Id constant, const Format& y);
   Signal selection(const graph::Vertex& v, const Format& y);
   Signal function(graph::Id id, const Format& y);
-  Signal unary(const std::string& name, const Signal& x, const Format& y, Compound (*make)(const Format&, const Format&, const FunctionOptions&));
+  Signal unary(const std::string& name, const Signal& x, const Format& y,
+               Compound (*make)(const Format&, const Format&, const FunctionOptions&));
   Signal cosine_or_sine(const graph::Vertex& v, const Format& y);
   Signal angle(const graph::Vertex& v, const Format& y);
   Signal operand(graph::Id id);

@@ -17,12 +17,12 @@ namespace mote::hardware {
 /// host, once a step: `fields`.
 struct Plan {
   graph::Graph graph;
-  std::vector<graph::Id> initial, next;  ///< (D,)
-  graph::Id log_weight = 0;              ///< octaves
-  std::vector<graph::Id> fields;         ///< vertices of the host that particles meet, and the bits "seen"
+  std::vector<graph::Id> initial, next;          ///< (D,)
+  graph::Id log_weight = 0;                      ///< octaves
+  std::vector<graph::Id> fields;                 ///< vertices of the host that particles meet, and the bits "seen"
   std::vector<std::vector<std::uint32_t>> seen;  ///< by bit: the columns that were all seen; see seen_bit
-  std::uint32_t columns = 0;             ///< of the model; kColumn inputs from there on are bits
-  double constant = 0;                   ///< octaves
+  std::uint32_t columns = 0;                     ///< of the model; kColumn inputs from there on are bits
+  double constant = 0;                           ///< octaves
 
   /// The number of the bit that an input is, or -1.
   int seen_bit(graph::Id id) const;

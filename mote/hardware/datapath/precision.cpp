@@ -16,7 +16,7 @@ using graph::Op;
 using graph::Role;
 using graph::Vertex;
 
-constexpr double kNoiseShare = 8, kErrorShare = 16;  // a step is at most such a part of either
+constexpr double kNoiseShare = 8, kErrorShare = 16;          // a step is at most such a part of either
 constexpr double kLogStep = 1.0 / 16, kStateLogStep = 0.25;  // octaves
 constexpr double kFaintOctaves = 8;
 constexpr int kMostFraction = 30, kMostBits = 40, kMostOfFunction = 24;
@@ -41,8 +41,8 @@ bool is_draw(const Vertex& v) {
   return is_normal(v) || (v.op == Op::kInput && (v.role == Role::kUniform || v.role == Role::kPriorUniform));
 }
 bool is_function(Op op) {
-  return op == Op::kDivide || op == Op::kSqrt || op == Op::kExp || op == Op::kLog || op == Op::kSin ||
-         op == Op::kCos || op == Op::kAtan || op == Op::kAtan2;
+  return op == Op::kDivide || op == Op::kSqrt || op == Op::kExp || op == Op::kLog || op == Op::kSin || op == Op::kCos ||
+         op == Op::kAtan || op == Op::kAtan2;
 }
 
 class Analysis {

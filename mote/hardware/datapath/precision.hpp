@@ -19,9 +19,9 @@ struct Precision {
 ///   D_v rms(dx_d / dv) <= e_d for every state d it leads to,   e_d = min(sd of the move's noise in x_d / 8, RMSE / 16)
 ///   D_v rms(dl / dv)   <= 1/16 octave,   l = log2 p(y | x)
 ///
-/// Rounding adds D^2 / 12, so that one word adds less than 0.2 % to a noise's variance. Slopes of l count less where the
-/// weight is small: by 1 / (1 + d / 8) at d octaves below the largest l of the samples. A state's own step may change l
-/// by half an octave. What floor() and comparisons read is known to 2^-8 and to a thousandth of its range.
+/// Rounding adds D^2 / 12, so that one word adds less than 0.2 % to a noise's variance. Slopes of l count less where
+/// the weight is small: by 1 / (1 + d / 8) at d octaves below the largest l of the samples. A state's own step may
+/// change l by half an octave. What floor() and comparisons read is known to 2^-8 and to a thousandth of its range.
 ///
 /// Integer bits hold what was sampled, widened by `margin`, or what interval analysis allows where that costs at most
 /// two bits more; words saturate.

@@ -23,7 +23,7 @@ struct Sight {
 struct Outcome {
   std::vector<Estimate> estimates;
   std::vector<Particles> sets;  ///< what was written to the particle memory, step by step
-  std::uint64_t cycles = 0;   ///< from start_i to the last estimate
+  std::uint64_t cycles = 0;     ///< from start_i to the last estimate
   bool complete = false;
 };
 

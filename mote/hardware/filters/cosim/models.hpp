@@ -58,7 +58,8 @@ inline Arithmetic growth() {
   model.formats.draw_words = 2;
   model.formats.propose_latency = 6;
   model.formats.weigh_latency = 5;
-  model.propose = [](unsigned t, Observed observed, const Particles& parents, const WordColumns& words, Particles& states) {
+  model.propose = [](unsigned t, Observed observed, const Particles& parents, const WordColumns& words,
+                     Particles& states) {
     for (std::size_t d = 0; d < 2; ++d)
       for (std::size_t j = 0; j < states[d].size(); ++j) {
         const auto at = static_cast<std::size_t>((parents[d][j] >> 8) & 1023);

@@ -1,0 +1,171 @@
+#include "mote/app/circuits/folder.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "mote/base/refusal.hpp"
+#include "mote/hardware/machine/bits.hpp"
+#include "mote/hardware/machine/templates.hpp"
+
+namespace mote {
+namespace {
+
+namespace fs = std::filesystem;
+using Files = std::map<std::string, std::string>;
+
+constexpr const char* kMark = "circuit.json";  // only designs have one
+
+std::string hex_of(const std::vector<std::uint32_t>& words) {
+  std::string text;
+  for (auto word = words.rbegin(); word != words.rend(); ++word) text += fmt::format("{:08x}", *word);
+  return text + '\n';
+}
+
+/// What the golden model makes of a recording, as a testbench compares it.
+struct Vectors {
+  std::string observations, estimates, particles;
+  std::size_t steps = 0, kept = 0;
+  std::uint64_t cycles = 0;
+};
+
+std::vector<std::uint32_t> estimate_words(const hardware::Machine& machine, const hardware::Estimate& estimate) {
+  hardware::BitWriter bits(machine.estimate_bits());
+  std::vector<std::int64_t> parts = estimate.mean;
+  parts.push_back(static_cast<std::int64_t>(estimate.sum));
+  parts.push_back(estimate.scale);
+  parts.push_back(static_cast<std::int64_t>(estimate.accepted));
+  const auto fields = machine.estimate_fields();
+  for (std::size_t k = 0; k < fields.size(); ++k) bits.append(parts[k], fields[k].format.width());
+  return bits.words();
+}
+
+void append_particles(Vectors& vectors, const hardware::Machine& machine, const hardware::Particles& set) {
+  const auto value_bits = static_cast<int>(machine.formats().value_bits);
+  const auto slot_bits = static_cast<int>(machine.capacity().slot_bits());
+  for (std::size_t i = 0; i < set[0].size(); ++i, ++vectors.kept) {
+    hardware::BitWriter bits(static_cast<int>(set.size()) * value_bits + slot_bits);
+    for (const auto& state : set) bits.append(state[i], value_bits);
+    bits.append(static_cast<std::int64_t>(i), slot_bits);
+    vectors.particles += hex_of(bits.words());
+  }
+}
+
+Vectors vectors_of(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& played,
+                   const std::string& where) {
+  const hardware::Machine& machine = *circuit.machine;
+  const auto golden = machine.golden();
+  golden->start(design.registers);
+  Vectors vectors;
+  for (const auto& observed : observed_by(circuit, played, where)) {
+    vectors.observations += hex_of(machine.observation_words(observed));
+    vectors.estimates += hex_of(estimate_words(machine, golden->step(observed)));
+    append_particles(vectors, machine, golden->set());
+    ++vectors.steps;
+  }
+  vectors.cycles = golden->cycles();
+  return vectors;
+}
+
+std::string register_values(const hardware::Architecture& architecture, const hardware::RunRegisters& registers) {
+  std::string text;
+  for (const hardware::Register& one : architecture.registers)
+    text +=
+        fmt::format(".{}_i({}), ", one.name,
+                    one.flag ? fmt::format("1'b{}", one.value(registers)) : fmt::format("{}", one.value(registers)));
+  return text;
+}
+
+std::string register_table(const hardware::Architecture& architecture, const hardware::RunRegisters& registers) {
+  std::string text = "\n| register | holds | here |\n|---|---|---|\n";
+  for (const hardware::Register& one : architecture.registers)
+    text += fmt::format("| `{}_i` | {} | {} |\n", one.name, one.meaning, one.value(registers));
+  return text;
+}
+
+std::string figure_table(const FilterCircuit& circuit, const CircuitReport& found) {
+  std::string text;
+  for (const report::Fact& fact : circuit_facts(circuit, found))
+    text += fmt::format("| {} | {} |\n", fact.name, fact.value);
+  return text;
+}
+
+std::string testbench_of(const hardware::Machine& machine, const CircuitDesign& design, const Vectors& vectors,
+                         double period_ns) {
+  const hardware::Formats& f = machine.formats();
+  return hardware::filled_in(hardware::machine_template("testbench.sv.in"),
+                             {{"name", machine.name()},
+                              {"steps", fmt::format("{}", vectors.steps)},
+                              {"kept", fmt::format("{}", vectors.kept)},
+                              {"obs_top", fmt::format("{}", machine.observation_bits() - 1)},
+                              {"est_top", fmt::format("{}", machine.estimate_bits() - 1)},
+                              {"slot_top", fmt::format("{}", machine.capacity().slot_bits() - 1)},
+                              {"state_top", fmt::format("{}", f.dims * f.value_bits - 1)},
+                              {"registers", register_values(machine.architecture(), design.registers)},
+                              {"half_period", fmt::format("{:.3f}", period_ns / 2)},
+                              {"most_cycles", fmt::format("{}", 2 * vectors.cycles + 1000)}});
+}
+
+Files files_of(const FilterCircuit& circuit, const CircuitReport& found, const Vectors& vectors) {
+  const hardware::Machine& machine = *circuit.machine;
+  const double period_ns = 1000 / found.cost.value_or(hardware::Cost{}).fmax_mhz.value_or(100);
+  const std::map<std::string, std::string> places{
+      {"name", machine.name()},
+      {"model", machine.model().name},
+      {"meaning", std::string(machine.architecture().meaning)},
+      {"command", found.command},
+      {"part", "xc7a100tcsg324-1"},
+      {"period", fmt::format("{:.3f}", period_ns)},
+      {"figures", figure_table(circuit, found)},
+      {"registers", register_table(machine.architecture(), found.design.registers)},
+      {"weight_bits", fmt::format("{}", machine.formats().weight_bits)}};
+  const auto filled = [&](const char* name) { return hardware::filled_in(hardware::machine_template(name), places); };
+  Files files{{"README.md", filled("README.md.in")},
+              {kMark, circuit_json(circuit, found).dump(2) + "\n"},
+              {machine.name() + ".xdc", filled("constraints.xdc.in")},
+              {"vivado.tcl", filled("vivado.tcl.in")},
+              {"testbench/run.sh", filled("run.sh.in")},
+              {"testbench/testbench.sv", testbench_of(machine, found.design, vectors, period_ns)},
+              {"testbench/observations.hex", vectors.observations},
+              {"testbench/estimates.hex", vectors.estimates},
+              {"testbench/particles.hex", vectors.particles}};
+  for (const hardware::DesignFile& file : machine.modules("")) files["rtl/" + file.name] = file.text;
+  for (const hardware::DesignFile& file : machine.tables()) files["tables/" + file.name] = file.text;
+  if (found.simulation)
+    files["estimates.csv"] = circuit_estimates_csv(found.simulation->record, machine.architecture().chain);
+  return files;
+}
+
+/// A folder that another program wrote keeps its files.
+void refuse_foreign(const fs::path& folder, const Files& files) {
+  if (fs::exists(folder / kMark)) return;
+  for (const auto& [name, text] : files)
+    if (fs::exists(folder / name))
+      throw Refusal(ExitCode::kCannotWrite, {folder.string(), "", "a new folder, or that of a design",
+                                             "a file " + name + " of something else", "Pass another --out."});
+}
+
+void make_folders(const fs::path& folder) {
+  for (const char* name : {"rtl", "tables", "testbench"}) {
+    std::error_code error;
+    fs::create_directories(folder / name, error);
+    if (error)
+      throw Refusal(ExitCode::kCannotWrite,
+                    {folder.string(), "", "a folder that can be made", error.message(), "Pass another --out."});
+  }
+}
+
+}  // namespace
+
+void write_design(OutputSet& outputs, const std::string& folder, const FilterCircuit& circuit,
+                  const CircuitReport& found, const Recording& played, const std::string& where) {
+  const Files files = files_of(circuit, found, vectors_of(circuit, found.design, played, where));
+  refuse_foreign(folder, files);
+  make_folders(folder);
+  for (const auto& [name, text] : files) outputs.open((fs::path(folder) / name).string())->write(text);
+}
+
+}  // namespace mote

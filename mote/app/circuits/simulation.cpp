@@ -1,0 +1,113 @@
+#include "mote/app/circuits/simulation.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "mote/app/files/output.hpp"
+#include "mote/base/refusal.hpp"
+
+namespace mote {
+namespace {
+
+constexpr Step kMostSteps = 65535;  // the circuit's register has 16 bits
+
+Row<double> unseen_row(const std::vector<Column>& columns) {
+  Row<double> row;
+  for (const Column& column : columns) {
+    row.values.push_back(column.input ? column.fallback : 0);
+    row.present.push_back(column.input);
+  }
+  return row;
+}
+
+void refuse_crowded(const ObservedStep& step, const std::string& where) {
+  if (step.rows.size() > 1)
+    throw Refusal(ExitCode::kBadData, {where, fmt::format("t = {}", step.t), "one row a step, which a circuit takes",
+                                       std::to_string(step.rows.size()), "Merge them, or use mote run."});
+}
+
+EstimateRow row_of(const FilterCircuit& circuit, const CircuitDesign& design, Step t, bool seen,
+                   const hardware::Estimate& estimate) {
+  const hardware::Datapath& path = circuit.datapath;
+  const bool chain = design.architecture->chain;
+  const std::uint64_t offered = chain ? design.registers.proposals() : design.registers.particles;
+  EstimateRow row{t, {}, {}, {}};
+  for (std::size_t d = 0; d < path.states.size(); ++d) row.states.push_back({path.mean(d, estimate.mean[d]), kNaN});
+  const double octaves = hardware::log2_evidence(estimate, path.arithmetic.formats, offered) + path.constant;
+  row.report.log_evidence = seen ? octaves * std::numbers::ln2 : 0;
+  row.report.ess = kNaN;
+  if (chain && offered > 1)
+    row.report.acceptance = static_cast<double>(estimate.accepted) / static_cast<double>(offered - 1);
+  return row;
+}
+
+RunRecord record_of(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
+                    const std::vector<hardware::Estimate>& estimates) {
+  RunRecord record;
+  record.states = circuit.recorded.states;
+  record.plan.particles = design.registers.particles;
+  record.predicted_steps = estimates.size();
+  for (const ObservedStep& step : recording.steps)
+    if (const auto k = static_cast<std::size_t>(step.t - 1); k < estimates.size())
+      record.rows.push_back(row_of(circuit, design, step.t, !step.rows.empty(), estimates[k]));
+  return record;
+}
+
+}  // namespace
+
+std::vector<std::vector<std::int64_t>> observed_by(const FilterCircuit& circuit, const Recording& recording,
+                                                   const std::string& where) {
+  const Step last = recording.steps.back().t;
+  if (last > kMostSteps)
+    throw Refusal(ExitCode::kBadData, {where, "column \"t\"", fmt::format("at most {}, a run of a circuit", kMostSteps),
+                                       std::to_string(last), "Split the recording."});
+  std::vector<Row<double>> rows(static_cast<std::size_t>(last), unseen_row(circuit.recorded.columns));
+  for (const ObservedStep& step : recording.steps) {
+    refuse_crowded(step, where);
+    if (!step.rows.empty()) rows[static_cast<std::size_t>(step.t - 1)] = step.rows.front();
+  }
+  std::vector<std::vector<std::int64_t>> observed;
+  for (Row<double>& row : rows) {
+    for (std::size_t j = 0; j < row.values.size(); ++j)
+      if (!row.present[j]) row.values[j] = 0;
+    const Step t = static_cast<Step>(observed.size() + 1);
+    observed.push_back(circuit.datapath.observe(row, circuit.recorded.schedule(t)));
+  }
+  return observed;
+}
+
+CircuitSimulation simulated(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
+                            const std::string& where) {
+  const auto observed = observed_by(circuit, recording, where);
+  hardware::Simulator simulator(*circuit.machine);
+  const hardware::CircuitRun run = simulator.run(design.registers, observed);
+  return {hardware::agreement(run, *circuit.machine->golden(), design.registers, observed),
+          record_of(circuit, design, recording, run.estimates)};
+}
+
+RunRecord golden_run(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
+                     const std::string& where) {
+  const auto golden = design.architecture->golden(circuit.datapath.arithmetic, design.seed);
+  golden->start(design.registers);
+  std::vector<hardware::Estimate> estimates;
+  for (const auto& step : observed_by(circuit, recording, where)) estimates.push_back(golden->step(step));
+  return record_of(circuit, design, recording, estimates);
+}
+
+std::string circuit_estimates_csv(const RunRecord& record, bool chain) {
+  std::string csv = "t";
+  for (const Quantity& state : record.states) csv += "," + state.name + "_mean";
+  csv += chain ? ",log_evidence,acceptance\n" : ",log_evidence\n";
+  for (const EstimateRow& row : record.rows) {
+    csv += std::to_string(row.t);
+    for (const Moments& m : row.states) csv += "," + exact(m.mean);
+    csv += "," + exact(row.report.log_evidence);
+    if (chain) csv += "," + exact(row.report.acceptance);
+    csv += '\n';
+  }
+  return csv;
+}
+
+}  // namespace mote

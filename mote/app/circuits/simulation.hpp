@@ -1,0 +1,35 @@
+#pragma once
+/// A recording through a circuit: simulated clock by clock, compared with its golden model, in the model's units.
+
+#include "mote/app/circuits/circuit.hpp"
+#include "mote/engine/run_record.hpp"
+#include "mote/hardware/machine/simulator.hpp"
+
+namespace mote {
+
+/// What came of a recording.
+struct CircuitSimulation {
+  hardware::Agreement agreement;
+  RunRecord record;  ///< means, evidence and acceptance; no deviations, no effective sample sizes
+};
+
+/// The rows of a recording as a circuit takes them: one a step, also where nothing was seen.
+///
+/// error   Refusal (kBadData) naming the data: several rows for one step, or more than 65535 steps
+std::vector<std::vector<std::int64_t>> observed_by(const FilterCircuit& circuit, const Recording& recording,
+                                                   const std::string& where);
+
+/// Simulates a recording.
+///
+/// error   as observed_by(); Refusal (kOutsideTool) when Verilator is missing or fails
+CircuitSimulation simulated(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
+                            const std::string& where);
+
+/// The golden model's run of a recording by the design's seed, without a simulation: what the circuit would give.
+RunRecord golden_run(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
+                     const std::string& where);
+
+/// The estimates as CSV: t, the mean of every state, log_evidence, and acceptance where a chain decides.
+std::string circuit_estimates_csv(const RunRecord& record, bool chain);
+
+}  // namespace mote

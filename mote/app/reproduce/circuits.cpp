@@ -1,0 +1,59 @@
+#include "mote/app/reproduce/circuits.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "mote/app/commands/rtl_options.hpp"
+#include "mote/engine/latency.hpp"
+#include "mote/hardware/tools.hpp"
+
+namespace mote::reproduce {
+
+CircuitBench::CircuitBench(const Run& run, const Job& job) : where_(run.where), job_(job) {
+  const Arguments arguments = arguments_from(run.where, circuit_options(), run.options);
+  design_ = circuit_design_from(arguments);
+  family_ = family_from(arguments);
+}
+
+std::string CircuitBench::missing() const {
+  for (const char* tool : {"verilator", "yosys"})
+    if (!hardware::on_path(tool))
+      return std::string("there is no ") + tool + ". Install it: apt-get install " + tool + ".";
+  return "";
+}
+
+const FilterCircuit& CircuitBench::circuit() {
+  if (!circuit_) circuit_ = filter_circuit(*job_.model, job_.model_name, design_);
+  return *circuit_;
+}
+
+RunRecord CircuitBench::record(const Recording& recording, std::uint64_t seed_offset) {
+  CircuitDesign design = design_;
+  design.seed += seed_offset;
+  return golden_run(circuit(), design, recording, where_);
+}
+
+/// Cycles of a step, from runs of all steps and of the first alone, over the sequential law for one proposal a cycle.
+double CircuitBench::step_cycles_over_law(const Recording& recording) {
+  const auto observed = observed_by(circuit(), recording, where_);
+  hardware::Simulator simulator(*circuit().machine);
+  const auto cycles = [&](std::size_t steps) {
+    const auto end = observed.begin() + static_cast<std::ptrdiff_t>(steps);
+    return static_cast<double>(simulator.run(design_.registers, {observed.begin(), end}).cycles);
+  };
+  const hardware::ImhLatency latency(circuit().machine->formats());
+  const double law = sequential_time(design_.registers.proposals(), {1, 1, 1},
+                                     {static_cast<double>(latency.propose), static_cast<double>(latency.weigh)});
+  return (cycles(observed.size()) - cycles(1)) / (static_cast<double>(observed.size() - 1) * law);
+}
+
+double CircuitBench::figure(const std::string& key, const Recording& recording) {
+  if (key == "step_cycles_over_law") return step_cycles_over_law(recording);
+  if (!found_) {
+    found_ = CircuitReport{job_.model_name, "", design_, {}, simulated(circuit(), design_, recording, where_), {}};
+    if (family_) found_->cost = hardware::cost_of(*circuit().machine, *family_);
+  }
+  const nlohmann::json value = circuit_json(circuit(), *found_)[key];
+  return value.is_number() ? value.get<double>() : kNaN;
+}
+
+}  // namespace mote::reproduce

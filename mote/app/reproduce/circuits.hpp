@@ -1,0 +1,38 @@
+#pragma once
+/// Circuits: runs of an item that a circuit filters.
+
+#include <optional>
+#include <string>
+
+#include "mote/app/circuits/report.hpp"
+#include "mote/app/commands/job.hpp"
+#include "mote/app/reproduce/item.hpp"
+
+namespace mote::reproduce {
+
+/// One circuit at work: its golden model filters, which gives the circuit's numbers; Verilator and Yosys are called for
+/// figures alone.
+class CircuitBench {
+ public:
+  /// error   Refusal (kWrongUse) naming file:line for options that `mote rtl` does not have
+  CircuitBench(const Run& run, const Job& job);
+
+  /// Why figures cannot be had: a tool is not there. Empty if all are.
+  std::string missing() const;
+  RunRecord record(const Recording& recording, std::uint64_t seed_offset);
+  /// One of kCircuitKeys, on a recording.
+  double figure(const std::string& key, const Recording& recording);
+
+ private:
+  const FilterCircuit& circuit();
+  double step_cycles_over_law(const Recording& recording);
+
+  std::string where_;
+  Job job_;
+  CircuitDesign design_;
+  std::optional<hardware::Family> family_;
+  std::optional<FilterCircuit> circuit_;
+  std::optional<CircuitReport> found_;
+};
+
+}  // namespace mote::reproduce

@@ -1,0 +1,63 @@
+#pragma once
+/// The filters that a circuit can be: an entry each, from which the top module, its simulation and the program know it.
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mote/hardware/circuit.hpp"
+#include "mote/hardware/filters/estimate.hpp"
+#include "mote/hardware/filters/imh.hpp"
+
+namespace mote::hardware {
+
+/// What a run is told; a filter takes what it has a register for.
+using RunRegisters = ImhRegisters;
+
+/// A register of a filter, written before a run starts.
+struct Register {
+  std::string_view name;     ///< of its port, without _i
+  std::string_view meaning;  ///< with its range
+  bool flag = false;         ///< one bit; else a count of up to 2^At
+  std::uint32_t (*value)(const RunRegisters&) = nullptr;
+};
+
+/// How large a circuit is made: what its registers may be told at most.
+struct Capacity {
+  unsigned at = 10;           ///< counts go up to 2^at
+  std::uint32_t most = 1024;  ///< particles; a power of two
+
+  unsigned slot_bits() const { return static_cast<unsigned>(ceil_log2(most)); }
+};
+
+/// A filter's golden model, whatever its kind.
+class Golden {
+ public:
+  virtual ~Golden() = default;
+  virtual void start(const RunRegisters& registers) = 0;
+  virtual Estimate step(Observed observed) = 0;
+  /// What a step wrote to the particle memory.
+  virtual const Particles& set() const = 0;
+  /// Cycles from start_i to the last estimate, with streams that never wait.
+  virtual std::uint64_t cycles() const = 0;
+};
+
+/// A kind of filter.
+struct Architecture {
+  std::string_view name, meaning;
+  std::string_view module;                                ///< of the library
+  std::string_view golden_file;                           ///< where its golden model stands
+  std::vector<Register> registers;                        ///< beside start, steps and busy
+  bool chain = false;                                     ///< a chain decides; estimates say how often it moved
+  unsigned stages = 0;                                    ///< of its pipeline, beside the model's
+  std::vector<Parameter> (*parameters)(const Capacity&);  ///< that other kinds do not have
+  std::string (*range)(const Capacity&);                  ///< of its registers, for the data sheet
+  Capacity (*capacity)(const RunRegisters& most);
+  std::unique_ptr<Golden> (*golden)(const Arithmetic&, std::uint64_t seed);
+};
+
+/// All kinds, the simplest first.
+const std::vector<Architecture>& architectures();
+
+}  // namespace mote::hardware

@@ -1,0 +1,66 @@
+#pragma once
+/// A whole particle filter as a circuit: a filter of the library around a model's pipelines, between streams.
+
+#include <string>
+#include <vector>
+
+#include "mote/hardware/machine/architecture.hpp"
+#include "mote/hardware/machine/model_circuit.hpp"
+
+namespace mote::hardware {
+
+/// A file of a design.
+struct DesignFile {
+  std::string name, text;
+};
+
+/// A circuit of its own: registers, a stream of observations in, a stream of estimates out.
+///
+///   est_tdata: mean of each state | sum of weights | scale | moves of the chain (architectures with one), low bits
+///   first
+///
+/// error   Refusal (kWrongUse) for more particles than its sums have bits for
+class Machine {
+ public:
+  /// shape   most: the most that registers may be told
+  Machine(ModelCircuit model, const Architecture& architecture, const RunRegisters& most, std::uint64_t seed = 1);
+
+  const std::string& name() const { return name_; }
+  const ModelCircuit& model() const { return model_; }
+  const Architecture& architecture() const { return *architecture_; }
+  const Formats& formats() const { return model_.arithmetic.formats; }
+  const Capacity& capacity() const { return capacity_; }
+  std::uint64_t seed() const { return seed_; }
+  std::unique_ptr<Golden> golden() const { return architecture_->golden(model_.arithmetic, seed_); }
+  /// Of its pipeline, from a particle's parent to its weight.
+  unsigned stages() const;
+
+  /// Bits of an observation and of an estimate on their streams: whole bytes.
+  int observation_bits() const;
+  int estimate_bits() const;
+  /// The parts of an estimate, low bits first.
+  std::vector<Field> estimate_fields() const;
+  /// What stands on the stream.
+  std::vector<std::uint32_t> observation_words(Observed observed) const;
+  Estimate estimate_in(const std::uint32_t* words) const;
+
+  /// Its SystemVerilog, which seeks tables in a folder (empty, or with its closing slash).
+  std::string top(const std::string& folder) const;
+  /// The modules that it is made of: the top module last, before it those that it needs, of the library too.
+  std::vector<DesignFile> modules(const std::string& folder) const;
+  std::vector<DesignFile> tables() const;
+  /// Of the filter's module, without its tables, and those.
+  std::vector<Parameter> parameters() const;
+  std::vector<Memory> filter_tables() const;
+
+ private:
+  std::string sheet() const;
+
+  std::string name_;
+  ModelCircuit model_;
+  const Architecture* architecture_;
+  Capacity capacity_;
+  std::uint64_t seed_;
+};
+
+}  // namespace mote::hardware

@@ -1,0 +1,147 @@
+#include "mote/hardware/machine/simulator.hpp"
+
+#include <algorithm>
+
+#include <dlfcn.h>
+
+#include "mote/base/refusal.hpp"
+#include "mote/hardware/lowering.hpp"
+#include "mote/hardware/machine/bits.hpp"
+#include "mote/hardware/machine/driver/request.hpp"
+#include "mote/hardware/machine/templates.hpp"
+#include "mote/hardware/tools.hpp"
+
+namespace mote::hardware {
+namespace {
+
+/// The driver's header that knows the circuit's registers.
+std::string registers_header(const Architecture& architecture) {
+  std::string text = "#pragma once\n\ntemplate <class Top, class Each>\nvoid for_registers(Top& top, Each each) {\n";
+  for (const Register& one : architecture.registers) text += "  each(top." + std::string(one.name) + "_i);\n";
+  return text + "}\n";
+}
+
+/// Takes down what the driver notes.
+struct Notes {
+  const Machine* machine;
+  std::size_t particles;
+  CircuitRun* run;
+  std::size_t written = 0;
+
+  void kept(const std::uint32_t* words) {
+    const Formats& f = machine->formats();
+    const auto slot = BitReader(words + 1).take(static_cast<int>(machine->capacity().slot_bits()));
+    BitReader state(words + 1 + words_of(static_cast<int>(machine->capacity().slot_bits())));
+    if (written++ % particles == 0) run->sets.emplace_back(f.dims, std::vector<std::int64_t>(particles));
+    for (unsigned d = 0; d < f.dims; ++d)
+      run->sets.back()[d].at(slot) = state.take_signed(static_cast<int>(f.value_bits));
+  }
+  void estimated(const std::uint32_t* words) { run->estimates.push_back(machine->estimate_in(words)); }
+};
+
+std::uint64_t differing(const Particles& a, const Particles& b) {
+  std::uint64_t count = 0;
+  for (std::size_t d = 0; d < a.size(); ++d)
+    for (std::size_t i = 0; i < a[d].size(); ++i) count += a[d][i] != b[d][i];
+  return count;
+}
+
+}  // namespace
+
+Simulator::Simulator(const Machine& machine, Text text) : machine_(&machine) { build(text); }
+
+Simulator::~Simulator() {
+  if (library_ == nullptr) return;
+  reinterpret_cast<void (*)(void*)>(dlsym(library_, "driver_close"))(driver_);
+  dlclose(library_);
+}
+
+void Simulator::build(Text text) {
+  const bool written = text == Text::kWritten;
+  const std::string folder = folder_.path().string() + "/";
+  for (const DesignFile& file : machine_->modules(folder))
+    write_text(folder + file.name, written ? file.text : lowered(file.text));
+  for (const DesignFile& file : machine_->tables()) write_text(folder + file.name, file.text);
+  for (const char* name : {"driver.cpp", "request.hpp"}) write_text(folder + name, std::string(machine_template(name)));
+  write_text(folder + "registers.hpp", registers_header(machine_->architecture()));
+  std::string make = "OPT_FAST=-O1 OPT_SLOW=-O0 OPT_GLOBAL=-O1";
+  if (on_path("ccache")) make += " OBJCACHE=ccache";
+  run_tool("verilator", "verilator",
+           {"--cc",
+            "--exe",
+            "--build",
+            written ? "-Wall" : "-Wno-lint",
+            "-O3",
+            "--assert",
+            "--x-assign",
+            "fast",
+            "--top-module",
+            machine_->name(),
+            "--prefix",
+            "Vtop",
+            "--Mdir",
+            folder + "model",
+            "-y",
+            folder,
+            "-CFLAGS",
+            "-fPIC",
+            "-LDFLAGS",
+            "-shared",
+            "-MAKEFLAGS",
+            make,
+            "-o",
+            "circuit.so",
+            folder + machine_->name() + ".sv",
+            folder + "driver.cpp"});
+  library_ = dlopen((folder + "model/circuit.so").c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (library_ == nullptr)
+    throw Refusal(ExitCode::kOutsideTool, {"verilator", "", "a library that loads", dlerror(), "Reinstall verilator."});
+  driver_ = reinterpret_cast<void* (*)()>(dlsym(library_, "driver_open"))();
+}
+
+void Simulator::reset() { reinterpret_cast<void (*)(void*)>(dlsym(library_, "driver_reset"))(driver_); }
+
+CircuitRun Simulator::run(const RunRegisters& registers, const std::vector<std::vector<std::int64_t>>& observed,
+                          StreamPauses pauses, std::uint64_t most_cycles) {
+  std::vector<std::uint32_t> register_words, observations;
+  for (const Register& one : machine_->architecture().registers) register_words.push_back(one.value(registers));
+  for (const auto& values : observed) {
+    const auto words = machine_->observation_words(values);
+    observations.insert(observations.end(), words.begin(), words.end());
+  }
+  CircuitRun run;
+  Notes notes{machine_, registers.particles, &run};
+  const Request request{register_words.data(),
+                        observations.data(),
+                        static_cast<std::uint32_t>(words_of(machine_->observation_bits())),
+                        static_cast<std::uint32_t>(observed.size()),
+                        pauses.observations,
+                        pauses.estimates,
+                        pauses.seed,
+                        most_cycles,
+                        &notes,
+                        [](void* self, const std::uint32_t* words) { static_cast<Notes*>(self)->kept(words); },
+                        [](void* self, const std::uint32_t* words) { static_cast<Notes*>(self)->estimated(words); }};
+  using Run = std::uint64_t (*)(void*, const Request*);
+  run.cycles = reinterpret_cast<Run>(dlsym(library_, "driver_run"))(driver_, &request);
+  run.complete = run.estimates.size() == observed.size();
+  return run;
+}
+
+Agreement agreement(const CircuitRun& run, Golden& golden, const RunRegisters& registers,
+                    const std::vector<std::vector<std::int64_t>>& observed) {
+  Agreement found;
+  golden.start(registers);
+  for (std::size_t k = 0; k < observed.size(); ++k) {
+    const Estimate estimate = golden.step(observed[k]);
+    const std::uint64_t words = golden.set().size() * registers.particles;
+    found.compared += words;
+    found.mismatches += k < run.sets.size() ? differing(golden.set(), run.sets[k]) : words;
+    found.mismatches += k >= run.estimates.size() || run.estimates[k] != estimate;
+  }
+  found.cycles = run.cycles;
+  found.predicted_cycles = golden.cycles();
+  return found;
+}
+
+}  // namespace mote::hardware

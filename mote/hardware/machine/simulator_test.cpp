@@ -1,0 +1,98 @@
+#include "mote/hardware/machine/simulator.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mote/base/refusal.hpp"
+#include "mote/hardware/machine/bits.hpp"
+#include "mote/hardware/machine/local_level.hpp"
+#include "mote/hardware/machine/templates.hpp"
+
+namespace mote::hardware {
+namespace {
+
+const RunRegisters kMost{300, 400, 40, false};
+
+/// claim   circuit and golden model write the same particles and give the same estimates, with streams that pause and
+///         without, and after a reset in mid-run; cycles are the golden model's own when nothing pauses
+/// twin    the golden model of another seed, of which every step differs
+class Machines : public ::testing::TestWithParam<const Architecture*> {};
+
+std::vector<const Architecture*> all_architectures() {
+  std::vector<const Architecture*> all;
+  for (const Architecture& one : architectures()) all.push_back(&one);
+  return all;
+}
+
+std::string shown(const ::testing::TestParamInfo<const Architecture*>& info) {
+  std::string name(info.param->name);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+TEST_P(Machines, EqualTheirGoldenModels) {
+  const Machine machine(local_level_circuit(), *GetParam(), kMost, 7);
+  Simulator circuit(machine);
+  const auto golden = machine.golden();
+  const auto equal = [&](const RunRegisters& registers, StreamPauses pauses) {
+    const auto observed = level_observations(20, registers.particles);
+    const CircuitRun run = circuit.run(registers, observed, pauses);
+    const Agreement found = agreement(run, *golden, registers, observed);
+    EXPECT_TRUE(run.complete);
+    EXPECT_EQ(found.mismatches, 0U) << registers.particles;
+    EXPECT_EQ(found.compared, 20U * registers.particles);
+    if (pauses.observations == 0) {
+      EXPECT_EQ(found.cycles, found.predicted_cycles) << registers.particles;
+    }
+  };
+  equal(kMost, {});
+  equal({1, 1, 0, false}, {});
+  equal({256, 300, 10, false}, {40, 40, 3});
+  equal({90, 90, 0, true}, {220, 220, 5});
+
+  const auto observed = level_observations(5, 9);
+  EXPECT_FALSE(circuit.run({50, 60, 5, false}, observed, {}, 150).complete);
+  circuit.reset();
+  const CircuitRun run = circuit.run({50, 60, 5, false}, observed);
+  EXPECT_EQ(agreement(run, *machine.golden(), {50, 60, 5, false}, observed).mismatches, 0U);
+  EXPECT_GE(agreement(run, *GetParam()->golden(machine.model().arithmetic, 8), {50, 60, 5, false}, observed).mismatches,
+            5U * 45)
+      << "the twin";
+}
+
+TEST_P(Machines, NameWhatTheyNeedAndNoMore) {
+  const Machine machine(local_level_circuit(), *GetParam(), kMost);
+  std::string names;
+  for (const DesignFile& file : machine.modules("")) names += file.name + " ";
+  for (const char* needed : {"mote_estimate.sv", "mote_piecewise.sv", "mote_words.sv", "local_level_weigh.sv"})
+    EXPECT_NE(names.find(needed), std::string::npos) << needed;
+  EXPECT_EQ(names.find("mote_cordic.sv"), std::string::npos);
+  EXPECT_TRUE(names.ends_with(machine.name() + ".sv "));
+  const std::string top = machine.top("");
+  EXPECT_EQ(top.find('@'), std::string::npos);
+  EXPECT_NE(top.find("s12.5   level"), std::string::npos) << top;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Machines, ::testing::ValuesIn(all_architectures()), shown);
+
+TEST(Machine, RefusesMoreParticlesThanItsSumsHold) {
+  EXPECT_THROW(Machine(local_level_circuit(), architectures().front(), {1U << 22, 1U << 22, 0, false}), Refusal);
+}
+
+TEST(Bits, ComeBackAsTheyWent) {
+  BitWriter writer(100);
+  writer.append(-3, 18);
+  writer.append(0x123456789ABCDE, 60);
+  writer.append(5, 20);
+  BitReader reader(writer.words().data());
+  EXPECT_EQ(reader.take_signed(18), -3);
+  EXPECT_EQ(reader.take(60), 0x123456789ABCDEU);
+  EXPECT_EQ(reader.take(20), 5U);
+}
+
+TEST(Templates, FillInEveryPlaceOrSayWhich) {
+  EXPECT_EQ(filled_in("a @b@ c @(posedge) @b@", {{"b", "x"}}), "a x c @(posedge) x");
+  EXPECT_THROW(filled_in("@c@", {{"b", "x"}}), std::logic_error);
+}
+
+}  // namespace
+}  // namespace mote::hardware

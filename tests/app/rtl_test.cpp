@@ -1,0 +1,142 @@
+// mote rtl: a model's filter as a circuit, from the model to what stands in the folder.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/program.hpp"
+
+namespace mote::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* kKeys[] = {"cycles", "predicted_cycles", "compared", "mismatches", "lut",  "ff",
+                                 "dsp",    "bram18",           "fmax_mhz", "device",     "rmse", "power_mw",
+                                 "stages", "milliseconds"};
+
+void expect_done(const Ended& ended) { EXPECT_EQ(ended.code, 0) << ended.err; }
+
+TEST(Rtl, SaysWithNullsWhatWasNotAskedFor) {
+  const Scratch scratch;
+  expect_done(scratch.shell("mote rtl local-level --json j.json"));
+  const Json json = Json::parse(scratch.read("j.json"));
+  EXPECT_EQ(json.size(), std::size(kKeys));
+  for (const char* key : kKeys) {
+    ASSERT_TRUE(json.contains(key)) << key;
+    EXPECT_EQ(json[key].is_null(), std::string(key) != "stages") << key;
+  }
+}
+
+// claim    the simulated circuit equals its golden model, filters as well as the double filter, and tells the evidence
+// referee  mote run on the same recording: rmse and log evidence of N = 500, which chance moves by a few per cent
+// design   growth model, 40 steps, a gap and a step that was not seen; both kinds of filter
+TEST(Rtl, SimulatesARecording) {
+  const Scratch scratch;
+  expect_done(
+      scratch.shell("mote simulate ungm --steps 42 --seed 8 --out all.csv --truth truth.csv && "
+                    "sed -e '/^7,/d' -e 's/^9,.*/9,/' all.csv > obs.csv"));
+  expect_done(scratch.shell("mote run ungm --data obs.csv --truth truth.csv -n 20000 --summary run.json"));
+  const Json referee = Json::parse(scratch.read("run.json"));
+  for (const std::string arch : {"imh", "sisr"}) {
+    expect_done(scratch.shell("mote rtl ungm --arch " + arch +
+                              " -n 500 --simulate obs.csv --truth truth.csv --json j.json --out d"));
+    const Json json = Json::parse(scratch.read("j.json"));
+    EXPECT_EQ(json["compared"], 42 * 500);
+    EXPECT_EQ(json["mismatches"], 0);
+    EXPECT_EQ(json["cycles"], json["predicted_cycles"]);
+    EXPECT_LT(json["rmse"]["x"], 1.15 * referee["rmse"]["x"].get<double>());
+    std::istringstream estimates(scratch.read("d/estimates.csv"));
+    std::string line;
+    std::getline(estimates, line);
+    EXPECT_EQ(line, arch == "imh" ? "t,x_mean,log_evidence,acceptance" : "t,x_mean,log_evidence");
+    double evidence = 0;
+    int rows = 0;
+    for (; std::getline(estimates, line); ++rows) {
+      std::istringstream fields(line);
+      std::string t, mean, step;
+      std::getline(std::getline(std::getline(fields, t, ','), mean, ','), step, ',');
+      if (t == "9") EXPECT_EQ(std::stod(step), 0);
+      evidence += std::stod(step);
+    }
+    EXPECT_EQ(rows, 41);
+    EXPECT_NEAR(evidence, referee["log_evidence"].get<double>(), 6) << arch;
+  }
+}
+
+TEST(Rtl, WritesAFolderWhoseTestbenchPasses) {
+  const Scratch scratch;
+  expect_done(scratch.shell("mote rtl local-level --arch sisr -n 60 --out d"));
+  for (const char* file : {"README.md", "circuit.json", "vivado.tcl", "mote_local_level_sisr.xdc",
+                           "rtl/mote_local_level_sisr.sv", "rtl/mote_sisr.sv", "testbench/testbench.sv"})
+    EXPECT_FALSE(scratch.read(std::string("d/") + file).empty()) << file;
+  const Ended passed = scratch.shell("sh d/testbench/run.sh");
+  EXPECT_EQ(passed.code, 0) << passed.err;
+  EXPECT_NE(passed.out.find("PASSED: 20 estimates, 1200 particles"), std::string::npos) << passed.out;
+  // the twin: one bit of one particle
+  scratch.shell("sed -i '5s/.$/x/; 5y/0123456789abcdefx/1032547698badcfe0/' d/testbench/particles.hex");
+  const Ended failed = scratch.shell("sh d/testbench/run.sh");
+  EXPECT_NE(failed.code, 0) << failed.out;
+}
+
+TEST(Rtl, KeepsWhatOthersWrote) {
+  const Scratch scratch;
+  scratch.shell("mkdir d && echo mine > d/README.md");
+  const Ended refused = scratch.shell("mote rtl local-level -n 20 --out d");
+  EXPECT_EQ(refused.code, 6);
+  EXPECT_NE(refused.err.find("a file README.md of something else"), std::string::npos) << refused.err;
+  EXPECT_EQ(scratch.read("d/README.md"), "mine\n");
+  expect_done(scratch.shell("mote rtl local-level -n 20 --out e && mote rtl local-level -n 30 --out e"));
+}
+
+struct Wrong {
+  const char* words;
+  int code;
+  const char* says;
+};
+
+TEST(Rtl, RefusesInASentence) {
+  const Scratch scratch;
+  scratch.write("twice.csv", "t,y\n1,2\n1,3\n");
+  scratch.write("one.csv", "t,y\n1,2\n");
+  const Wrong all[] = {
+      {"local-level --arch fir", 2, "--arch: expected one of imh, sisr"},
+      {"local-level --arch sisr --burn-in 3", 2, "--burn-in: expected an architecture that has it, got sisr"},
+      {"local-level --lanes 2", 2, "--lanes: expected an architecture that has it"},
+      {"local-level -n 100 --draws 50", 2, "--draws: expected an integer from 100 to 65536"},
+      {"local-level -n 0", 2, "--particles: expected an integer from 1 to 65536"},
+      {"local-level --synth asic", 2, "--synth: expected one of xc7, ice40, ecp5"},
+      {"local-level --truth one.csv", 2, "--truth: expected --simulate"},
+      {"local-level --simulate twice.csv", 3,
+       "twice.csv: t = 1: expected one row a step, which a circuit takes, got 2"},
+      {"local-level --simulate none.csv", 3, "none.csv"},
+      {"nothing", 2, "nothing"}};
+  for (const Wrong& wrong : all) {
+    const Ended ended = scratch.shell(std::string("mote rtl ") + wrong.words);
+    EXPECT_EQ(ended.code, wrong.code) << wrong.words << ": " << ended.err;
+    EXPECT_NE(ended.err.find(wrong.says), std::string::npos) << ended.err;
+  }
+  const Ended missing = scratch.shell("PATH=/nowhere mote rtl local-level --simulate one.csv");
+  EXPECT_EQ(missing.code, 5);
+  EXPECT_NE(missing.err.find("apt-get install verilator"), std::string::npos) << missing.err;
+  EXPECT_EQ(scratch.shell("PATH=/nowhere mote rtl local-level --synth xc7").code, 5);
+}
+
+TEST(Rtl, CountsWhatACircuitTakes) {
+  const Scratch scratch;
+  expect_done(scratch.shell("mote simulate local-level --steps 5 --out obs.csv"));
+  expect_done(scratch.shell("mote rtl local-level --arch sisr -n 250 --simulate obs.csv --synth xc7 --json j.json"));
+  const Json json = Json::parse(scratch.read("j.json"));
+  EXPECT_GT(json["lut"], 500);
+  EXPECT_GT(json["ff"], 500);
+  EXPECT_GT(json["bram18"], 0);
+  EXPECT_TRUE(json["device"].get<std::string>().starts_with("XC7A100T"));
+  EXPECT_GT(json["fmax_mhz"], 50);
+  EXPECT_LT(json["fmax_mhz"], 400);
+  EXPECT_NEAR(json["milliseconds"].get<double>() * json["fmax_mhz"].get<double>() * 1000, json["cycles"].get<double>(),
+              1e-6);
+}
+
+}  // namespace
+}  // namespace mote::testing
