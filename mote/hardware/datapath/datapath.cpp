@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <deque>
+#include <optional>
 #include <span>
 
 #include "mote/graph/evaluate.hpp"
+#include "mote/hardware/datapath/draws.hpp"
 #include "mote/hardware/datapath/mapping.hpp"
 #include "mote/hardware/random.hpp"
 
@@ -20,6 +22,11 @@ using graph::Vertex;
 
 std::string numbered(const char* name, std::size_t k) { return name + std::to_string(k) + "_i"; }
 
+/// The words that a particle takes: each has a draw of the move and one of the prior.
+std::size_t draw_words(const graph::Recorded& recorded) {
+  return std::max(recorded.prior_draws.size(), recorded.draws.size());
+}
+
 /// Builds the pipelines of a plan.
 class Builder {
  public:
@@ -28,11 +35,13 @@ class Builder {
         recorded_(recorded),
         precision_(precision),
         options_(options),
-        functions_({options.form, options.multiplier}) {}
+        functions_({options.form, options.multiplier}) {
+    if (options.fuse) fused_ = fused(plan, precision, functions_.options());
+  }
 
   Compound propose() {
     Sketch sketch(options_.prefix + "_propose", options_.multiplier);
-    Mapping mapping(plan_, recorded_, precision_, sketch, functions_);
+    Mapping mapping(plan_, recorded_, precision_, fused_, sketch, functions_);
     const Signal first = sketch.standing("first_i", {false, 1, 0});
     const std::vector<Signal> states = state_ports(sketch);
     give_draws(sketch, mapping);
@@ -50,7 +59,7 @@ class Builder {
 
   Compound weigh() {
     Sketch sketch(options_.prefix + "_weigh", options_.multiplier);
-    Mapping mapping(plan_, recorded_, precision_, sketch, functions_);
+    Mapping mapping(plan_, recorded_, precision_, fused_, sketch, functions_);
     give_states(mapping, Role::kState, state_ports(sketch));
     give_fields(sketch, mapping);
     mapping.compute({plan_.log_weight});
@@ -73,20 +82,43 @@ class Builder {
     for (std::size_t k = 0; k < plan_.fields.size(); ++k)
       mapping.give(plan_.fields[k], sketch.standing(numbered("obs", k), precision_.formats[plan_.fields[k]]));
   }
-  /// Words: those of x_0 first, then those of the move.
+  /// A draw, or its product with a constant where nothing else uses it: a table gives either.
+  struct ScaledDraw {
+    Id id;
+    double factor;
+  };
+  ScaledDraw scaled(Id draw) const {
+    std::optional<ScaledDraw> only;
+    for (const Part part : {Part::kInitial, Part::kNext}) {
+      const auto outputs = plan_.outputs(part);
+      if (std::find(outputs.begin(), outputs.end(), draw) != outputs.end()) return {draw, 1};
+      for (const Id id : needed(plan_.graph, outputs)) {
+        const Vertex& v = plan_.graph[id];
+        const auto operands = v.operands();
+        if (std::find(operands.begin(), operands.end(), draw) == operands.end()) continue;
+        const Id other = v.args[v.args[0] == draw ? 1 : 0];
+        if (only || v.op != Op::kMultiply || !plan_.graph.is_constant(other)) return {draw, 1};
+        only = ScaledDraw{id, plan_.graph[other].value};
+      }
+    }
+    return only.value_or(ScaledDraw{draw, 1});
+  }
+  /// Each word is cut into a draw of the move and one of the prior.
   void give_draws(Sketch& sketch, Mapping& mapping) {
     std::vector<Signal> words;
-    for (std::size_t k = 0; k < recorded_.prior_draws.size() + recorded_.draws.size(); ++k)
+    for (std::size_t k = 0; k < draw_words(recorded_); ++k)
       words.push_back(sketch.input(numbered("word", k), kSignedBits));
-    const std::size_t before = recorded_.prior_draws.size();
+    const WordDraws draws(sketch, options_.multiplier);
     for (Id id = 0; id < plan_.graph.size(); ++id) {
       const Vertex& v = plan_.graph[id];
-      const Format& format = precision_.formats[id];
       if (v.op != Op::kInput) continue;
-      if (v.role == Role::kPriorNormal) mapping.give(id, mapping.normal(words[v.index], format));
-      if (v.role == Role::kPriorUniform) mapping.give(id, mapping.uniform(words[v.index], format));
-      if (v.role == Role::kNormal) mapping.give(id, mapping.normal(words[before + v.index], format));
-      if (v.role == Role::kUniform) mapping.give(id, mapping.uniform(words[before + v.index], format));
+      const bool prior = v.role == Role::kPriorNormal || v.role == Role::kPriorUniform;
+      if (v.role == Role::kNormal || v.role == Role::kPriorNormal) {
+        const ScaledDraw draw = scaled(id);
+        mapping.give(draw.id, draws.normal(words[v.index], prior, draw.factor, precision_.formats[draw.id]));
+      }
+      if (v.role == Role::kUniform || v.role == Role::kPriorUniform)
+        mapping.give(id, draws.uniform(words[v.index], prior, precision_.formats[id]));
     }
   }
 
@@ -95,6 +127,7 @@ class Builder {
   const Precision& precision_;
   DatapathOptions options_;
   Functions functions_;
+  std::map<Id, Fused> fused_;
 };
 
 std::vector<ObservedField> fields_of(const Plan& plan, const graph::Recorded& recorded, const Precision& precision) {
@@ -242,7 +275,7 @@ Datapath datapath(const graph::Recorded& recorded, const Samples& samples, const
   Formats formats;
   formats.dims = static_cast<unsigned>(precision.states.size());
   formats.value_bits = static_cast<unsigned>(precision.states[0].width());
-  formats.draw_words = static_cast<unsigned>(recorded.prior_draws.size() + recorded.draws.size());
+  formats.draw_words = static_cast<unsigned>(draw_words(recorded));
   formats.propose_latency = static_cast<unsigned>(made.propose.circuit().latency);
   formats.weigh_latency = static_cast<unsigned>(made.weigh.circuit().latency);
   made.arithmetic = golden(made.propose, made.weigh, formats);

@@ -35,10 +35,11 @@ struct ObservedField {
 /// A model as a circuit.
 ///
 /// propose: parents and words to states; weigh: states to log2 p(y | x) without the terms that do not depend on the
-/// state, s13.10, saturated. At t = 1 the parent's state is drawn by `initial` from words of its own, then moved by
-/// `next` as later ones are. An observation that was not seen adds nothing; a term of the likelihood that reads several
-/// counts when all of them were seen. Every input of a pipeline but the observation word and first_i belongs to one
-/// particle; those two must stand from 3 clocks before the first particle of a step until its last has left.
+/// state, s13.10, saturated. At t = 1 the parent's state is drawn by `initial`, then moved by `next` as later ones are;
+/// the draws of both are parts of the same words (draws.hpp). An observation that was not seen adds nothing; a term of
+/// the likelihood that reads several counts when all of them were seen. Every input of a pipeline but the observation
+/// word and first_i belongs to one particle; those two must stand from 3 clocks before the first particle of a step
+/// until its last has left.
 struct Datapath {
   Compound propose{"propose"}, weigh{"weigh"};
   Arithmetic arithmetic;                ///< formats and golden twins; `observed` has the fields in order

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "mote/base/refusal.hpp"
-#include "mote/hardware/random.hpp"
 
 namespace mote::hardware {
 namespace {
@@ -36,27 +35,24 @@ void Mapping::compute(const std::vector<Id>& outputs) {
   std::vector<bool> used(plan_.graph.size());
   for (const Id id : outputs) used[id] = true;
   for (Id id = static_cast<Id>(used.size()); id-- > 0;)
-    if (used[id] && !signals_.contains(id))
+    if (used[id] && !signals_.contains(id)) {
+      if (const auto found = fused_.find(id); found != fused_.end()) {
+        used[found->second.source] = true;
+        continue;
+      }
       for (const Id arg : plan_.graph[id].operands()) used[arg] = true;
+    }
   for (Id id = 0; id < used.size(); ++id)
     if (used[id] && !signals_.contains(id)) signals_[id] = made(id);
 }
 
 Signal Mapping::in(Id id, const Format& format) { return converted(signal(id), format); }
 
-Signal Mapping::normal(const Signal& word, const Format& format) {
-  const auto& unit = functions_.once(functions_.tables, "normal " + format.name(),
-                                     [&] { return normal_unit(format.fraction, functions_.options().multiplier); });
-  return sketch_.op(unit, format, word);
-}
-
-Signal Mapping::uniform(const Signal& word, const Format& format) {
-  return sketch_.bits(word, 32 - format.fraction, format.fraction, format.fraction);
-}
-
 Signal Mapping::made(Id id) {
   const Vertex& v = plan_.graph[id];
   const Format& y = precision_.formats[id];
+  if (const auto found = fused_.find(id); found != fused_.end())
+    return sketch_.op(found->second.unit, y, signal(found->second.source));
   switch (v.op) {
     case Op::kConstant:
       return sketch_.constant(y, v.value);
@@ -136,8 +132,8 @@ Signal Mapping::unsigned_of(const Signal& a) {
 
 Signal Mapping::unary(const std::string& name, const Signal& x, const Format& y,
                       Compound (*make)(const Format&, const Format&, const FunctionOptions&)) {
-  const auto& unit = functions_.once(functions_.compounds, name + x.format.name() + " " + y.name(),
-                                     [&] { return make(x.format, y, functions_.options()); });
+  const auto& unit =
+      functions_.once(name + x.format.name() + " " + y.name(), [&] { return make(x.format, y, functions_.options()); });
   return sketch_.op(unit, y, x);
 }
 
@@ -147,7 +143,7 @@ Signal Mapping::cosine_or_sine(const Vertex& v, const Format& y) {
   const std::string key = x.format.name() + " " + unit.name();
   const std::string of_this = std::to_string(v.args[0]) + " " + key;
   if (!pairs_.contains(of_this)) {
-    const auto& both = functions_.once(functions_.compounds, "cosine and sine " + key,
+    const auto& both = functions_.once("cosine and sine " + key,
                                        [&] { return cosine_and_sine(x.format, unit, functions_.options()); });
     const Signal cosine = sketch_.op(both, unit, x);
     pairs_.insert({of_this, {cosine, {{cosine.wire.node, 1}, unit}}});
@@ -160,14 +156,14 @@ Signal Mapping::angle(const Vertex& v, const Format& y) {
   const Signal b = operand(v.args[0]);
   const int fraction = std::max(2, y.fraction);
   if (v.op == Op::kAtan) {
-    const auto& unit = functions_.once(functions_.compounds, "atan " + b.format.name() + " " + std::to_string(fraction),
+    const auto& unit = functions_.once("atan " + b.format.name() + " " + std::to_string(fraction),
                                        [&] { return arc_tangent(b.format, fraction, functions_.options()); });
     return converted(sketch_.op(unit, {true, 1, fraction}, b), y);
   }
   const Signal a = operand(v.args[1]);
   const Format point{true, std::max(a.format.integer, b.format.integer),
                      std::max(a.format.fraction, b.format.fraction)};
-  const auto& unit = functions_.once(functions_.compounds, "atan2 " + point.name() + " " + std::to_string(fraction),
+  const auto& unit = functions_.once("atan2 " + point.name() + " " + std::to_string(fraction),
                                      [&] { return arc_tangent_2(point, fraction, functions_.options()); });
   return converted(sketch_.op(unit, {true, 2, fraction}, converted(b, point), converted(a, point)), y);
 }
@@ -178,9 +174,8 @@ Signal Mapping::function(Id id, const Format& y) {
     case Op::kDivide: {
       const Signal a = operand(v.args[0]);
       const Signal b = operand(v.args[1]);
-      const auto& unit =
-          functions_.once(functions_.compounds, "divide " + a.format.name() + " " + b.format.name() + " " + y.name(),
-                          [&] { return divide(a.format, b.format, y, functions_.options()); });
+      const auto& unit = functions_.once("divide " + a.format.name() + " " + b.format.name() + " " + y.name(),
+                                         [&] { return divide(a.format, b.format, y, functions_.options()); });
       return sketch_.op(unit, y, a, b);
     }
     case Op::kSqrt:

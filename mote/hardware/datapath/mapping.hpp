@@ -4,7 +4,7 @@
 #include <map>
 #include <memory>
 
-#include "mote/hardware/datapath/datapath.hpp"
+#include "mote/hardware/datapath/fusion.hpp"
 #include "mote/hardware/datapath/plan.hpp"
 #include "mote/hardware/datapath/precision.hpp"
 #include "mote/hardware/function_parts.hpp"
@@ -12,32 +12,35 @@
 
 namespace mote::hardware {
 
-/// Tables that were fitted: equal functions share one.
+/// Functions that were made: equal ones share their tables' fits.
 class Functions {
  public:
   explicit Functions(const FunctionOptions& options) : options_(options) {}
 
   const FunctionOptions& options() const { return options_; }
-  /// The unit of that key, made once.
-  template <class O, class Make>
-  const O& once(std::map<std::string, O>& known, const std::string& key, Make make) {
-    const auto found = known.find(key);
-    return found != known.end() ? found->second : known.emplace(key, make()).first->second;
+  /// The compound of that key, made once.
+  template <class Make>
+  const Compound& once(const std::string& key, Make make) {
+    const auto found = compounds_.find(key);
+    return found != compounds_.end() ? found->second : compounds_.emplace(key, make()).first->second;
   }
-
-  std::map<std::string, Piecewise> tables;
-  std::map<std::string, Compound> compounds;
 
  private:
   FunctionOptions options_;
+  std::map<std::string, Compound> compounds_;
 };
 
 /// Puts vertices into a sketch. Inputs are given first; results round to nearest and saturate.
 class Mapping {
  public:
-  Mapping(const Plan& plan, const graph::Recorded& recorded, const Precision& precision, Sketch& sketch,
-          Functions& functions)
-      : plan_(plan), recorded_(recorded), precision_(precision), sketch_(sketch), functions_(functions) {}
+  Mapping(const Plan& plan, const graph::Recorded& recorded, const Precision& precision,
+          const std::map<graph::Id, Fused>& fused, Sketch& sketch, Functions& functions)
+      : plan_(plan),
+        recorded_(recorded),
+        precision_(precision),
+        fused_(fused),
+        sketch_(sketch),
+        functions_(functions) {}
 
   /// What an input or a field is; it is converted to the vertex's format.
   void give(graph::Id id, const Signal& signal);
@@ -47,11 +50,6 @@ class Mapping {
   void compute(const std::vector<graph::Id>& outputs);
   /// A vertex in a format.
   Signal in(graph::Id id, const Format& format);
-
-  /// A normal number of a format from a word of random bits.
-  Signal normal(const Signal& word, const Format& format);
-  /// A uniform number.
-  Signal uniform(const Signal& word, const Format& format);
 
  private:
   Signal signal(graph::Id id) const { return signals_.at(id); }
@@ -73,6 +71,7 @@ class Mapping {
   const Plan& plan_;
   const graph::Recorded& recorded_;
   const Precision& precision_;
+  const std::map<graph::Id, Fused>& fused_;
   Sketch& sketch_;
   Functions& functions_;
   std::map<graph::Id, Signal> signals_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mote/graph/words.hpp"
+#include "mote/hardware/datapath/draws.hpp"
 #include "mote/hardware/datapath/tape.hpp"
 
 namespace mote::hardware {
@@ -215,7 +216,7 @@ class Analysis {
     const Vertex& v = plan_.graph[id];
     if (plan_.seen_bit(id) >= 0) return {false, 1, 0};
     if (is_normal(v)) return {true, 3, std::clamp(fraction, 4, 18)};
-    if (is_draw(v)) return {false, 0, std::clamp(fraction, 1, 32)};
+    if (is_draw(v)) return {false, 1, std::clamp(fraction, 4, kPriorBits)};
     if (v.op == Op::kConstant) return constant_format(v.value, fraction);
     const auto by = [&](const Interval& range) { return graph::format_for(range, fraction, kMostBits); };
     graph::Format format = by(v.op == Op::kFloor ? ranges.analysed[id] : ranges.kept[id]);
