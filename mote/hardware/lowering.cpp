@@ -72,8 +72,16 @@ void remove_types(std::string& text) {
     const std::string name = match[3];
     text.replace(static_cast<std::size_t>(match.position()), static_cast<std::size_t>(match.length()), "");
     replace_casts(text, name, sign, width_of(range));
-    text = std::regex_replace(text, std::regex("\\b" + name + "\\b"),
-                              std::string("logic") + (sign ? " signed" : "") + " [" + range + "]");
+    const std::string word = "\\b" + name + "\\b";
+    replace_all(text, std::regex(word + "\\s*(?=\\[)"), [&](const std::smatch&, std::string& after) {
+      std::size_t at = 0;
+      bracketed(after, at);
+      const std::string ranges = after.substr(0, at);
+      after = after.substr(at);
+      return "logic " + ranges + "[" + range + "]";  // elements have no sign
+    });
+    text =
+        std::regex_replace(text, std::regex(word), std::string("logic") + (sign ? " signed" : "") + " [" + range + "]");
   }
 }
 
@@ -124,8 +132,9 @@ std::string part(const std::vector<std::string>& widths, const std::vector<std::
   }
   if (elements == indices.size()) return "[" + base + " +: " + product(widths, elements) + "]";
   const std::string& bits = indices[elements];
-  if (const auto plus = bits.find("+:"); plus != std::string::npos)
-    return "[" + base + "+(" + bits.substr(0, plus) + ") +: " + bits.substr(plus + 2) + "]";
+  for (const char* direction : {"+:", "-:"})
+    if (const auto sign = bits.find(direction); sign != std::string::npos)
+      return "[" + base + "+(" + bits.substr(0, sign) + ") " + direction + " " + bits.substr(sign + 2) + "]";
   if (const auto colon = bits.rfind(':'); colon != std::string::npos && bits.find('?') == std::string::npos) {
     const std::string low = bits.substr(colon + 1);
     return "[" + base + "+(" + low + ") +: (" + bits.substr(0, colon) + ")-(" + low + ")+1]";

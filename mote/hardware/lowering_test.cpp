@@ -18,6 +18,8 @@ TEST(Lowered, HasNoTypesReturnsOrArrays) {
   EXPECT_EQ(lowered("logic [N-1:0][7:0] m;\nassign y = m[i] ^ m[i+1][3] ^ m[2][5:4];"),
             "logic [((N-1)+1)*((7)+1)-1:0] m;\nassign y = m[0+(i)*((7)+1) +: ((7)+1)] ^ "
             "m[0+(i+1)*((7)+1)+(3)] ^ m[0+(2)*((7)+1)+(4) +: (5)-(4)+1];");
+  EXPECT_EQ(lowered("typedef logic [7:0] t;\nt [N-1:0] m;\nassign y = m[i][7-:4];"),
+            "\nlogic [((N-1)+1)*((7)+1)-1:0] m;\nassign y = m[0+(i)*((7)+1)+(7) -: 4];");
   EXPECT_EQ(lowered("logic [7:0] v, memory[4];\nassign y = v[3] ^ memory[2];"),
             "logic [7:0] v, memory[4];\nassign y = v[3] ^ memory[2];");
   EXPECT_THROW(lowered("logic [3:0][7:0] m;\nassign y = m[2:1];"), std::logic_error);
@@ -27,8 +29,8 @@ TEST(Lowered, HasNoTypesReturnsOrArrays) {
 /// design  every kind of filter, simulated from lowered modules against its golden model
 TEST(Lowered, ComputesTheSame) {
   for (const Architecture& architecture : architectures()) {
-    const RunRegisters registers{60, 70, 5, false};
-    const Machine machine(local_level_circuit(), architecture, registers);
+    const RunRegisters registers{60, 72, 5, false};
+    const Machine machine(local_level_circuit(), architecture, registers, 1, std::min(4U, architecture.most_lanes));
     Simulator circuit(machine, Simulator::Text::kLowered);
     const auto observed = level_observations(10, 4);
     const Agreement found = agreement(circuit.run(registers, observed), *machine.golden(), registers, observed);

@@ -1,12 +1,13 @@
 #pragma once
-/// Random numbers made of uniform bits by one table each: normal numbers and logarithms of uniform ones.
+/// Random numbers made of uniform bits by tables: normal numbers. Logarithms of uniform ones are in
+/// filters/weights.hpp (log_drop), octaves as the chains compare them.
 
 #include "mote/hardware/compound.hpp"
 #include "mote/hardware/piecewise.hpp"
 
 namespace mote::hardware {
 
-/// A 32-bit word from mote_uniform as the units below take it.
+/// A 32-bit word from mote_words as the units below take it.
 inline constexpr Format kSignedBits{true, 0, 31};
 inline constexpr Format kPlainBits{false, 0, 32};
 
@@ -25,17 +26,6 @@ Piecewise normal_unit(int fraction, Multiplier multiplier = Multiplier::kDsp);
 
 /// What a normal unit stands for at the value of x in kSignedBits, x >= 0.
 double normal_of(double x);
-
-/// The logarithm of a uniform number, which the chain's acceptance test compares with a difference of log weights:
-///
-///   log((m + 1/2) / 2^32)
-///
-/// shape   x: kPlainBits; y: s5.fraction, from -22.9 to 0
-/// error   at most a step of y
-Piecewise log_uniform_unit(int fraction, Multiplier multiplier = Multiplier::kDsp);
-
-/// What a log-uniform unit stands for at the value of x in kPlainBits.
-double log_uniform_of(double x);
 
 /// Two independent standard normal numbers from two words, by the method of Box and Muller with CORDIC:
 ///

@@ -57,7 +57,9 @@ TEST(Rtl, SimulatesARecording) {
       std::istringstream fields(line);
       std::string t, mean, step;
       std::getline(std::getline(std::getline(fields, t, ','), mean, ','), step, ',');
-      if (t == "9") EXPECT_EQ(std::stod(step), 0);
+      if (t == "9") {
+        EXPECT_EQ(std::stod(step), 0);
+      }
       evidence += std::stod(step);
     }
     EXPECT_EQ(rows, 41);
@@ -101,9 +103,10 @@ TEST(Rtl, RefusesInASentence) {
   scratch.write("twice.csv", "t,y\n1,2\n1,3\n");
   scratch.write("one.csv", "t,y\n1,2\n");
   const Wrong all[] = {
-      {"local-level --arch fir", 2, "--arch: expected one of imh, sisr"},
+      {"local-level --arch fir", 2, "--arch: expected one of imh, imh-parallel, sisr"},
       {"local-level --arch sisr --burn-in 3", 2, "--burn-in: expected an architecture that has it, got sisr"},
       {"local-level --lanes 2", 2, "--lanes: expected an architecture that has it"},
+      {"local-level --arch sisr-lanes -n 99", 2, "--lanes: expected a power of two from 1 to 8 that divides"},
       {"local-level -n 100 --draws 50", 2, "--draws: expected an integer from 100 to 65536"},
       {"local-level -n 0", 2, "--particles: expected an integer from 1 to 65536"},
       {"local-level --synth asic", 2, "--synth: expected one of xc7, ice40, ecp5"},

@@ -15,6 +15,7 @@ struct CircuitDesign {
   const hardware::Architecture* architecture = nullptr;
   hardware::RunRegisters registers;  ///< of the runs to come; the circuit has room for no more
   std::uint64_t seed = 1;
+  unsigned lanes = 1;
 };
 
 /// A circuit, and what the host knows of its model.

@@ -43,13 +43,16 @@ std::vector<std::uint32_t> estimate_words(const hardware::Machine& machine, cons
   return bits.words();
 }
 
+/// A line for every write: the particles of a slot, a lane each, and the slot above them.
 void append_particles(Vectors& vectors, const hardware::Machine& machine, const hardware::Particles& set) {
   const auto value_bits = static_cast<int>(machine.formats().value_bits);
   const auto slot_bits = static_cast<int>(machine.capacity().slot_bits());
-  for (std::size_t i = 0; i < set[0].size(); ++i, ++vectors.kept) {
-    hardware::BitWriter bits(static_cast<int>(set.size()) * value_bits + slot_bits);
-    for (const auto& state : set) bits.append(state[i], value_bits);
-    bits.append(static_cast<std::int64_t>(i), slot_bits);
+  const std::size_t lanes = machine.capacity().lanes;
+  for (std::size_t slot = 0; slot < set[0].size() / lanes; ++slot, ++vectors.kept) {
+    hardware::BitWriter bits(machine.particle_bits() + slot_bits);
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      for (const auto& state : set) bits.append(state[slot * lanes + lane], value_bits);
+    bits.append(static_cast<std::int64_t>(slot), slot_bits);
     vectors.particles += hex_of(bits.words());
   }
 }
@@ -95,7 +98,6 @@ std::string figure_table(const FilterCircuit& circuit, const CircuitReport& foun
 
 std::string testbench_of(const hardware::Machine& machine, const CircuitDesign& design, const Vectors& vectors,
                          double period_ns) {
-  const hardware::Formats& f = machine.formats();
   return hardware::filled_in(hardware::machine_template("testbench.sv.in"),
                              {{"name", machine.name()},
                               {"steps", fmt::format("{}", vectors.steps)},
@@ -103,7 +105,7 @@ std::string testbench_of(const hardware::Machine& machine, const CircuitDesign& 
                               {"obs_top", fmt::format("{}", machine.observation_bits() - 1)},
                               {"est_top", fmt::format("{}", machine.estimate_bits() - 1)},
                               {"slot_top", fmt::format("{}", machine.capacity().slot_bits() - 1)},
-                              {"state_top", fmt::format("{}", f.dims * f.value_bits - 1)},
+                              {"state_top", fmt::format("{}", machine.particle_bits() - 1)},
                               {"registers", register_values(machine.architecture(), design.registers)},
                               {"half_period", fmt::format("{:.3f}", period_ns / 2)},
                               {"most_cycles", fmt::format("{}", 2 * vectors.cycles + 1000)}});

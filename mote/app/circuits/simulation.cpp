@@ -31,15 +31,14 @@ void refuse_crowded(const ObservedStep& step, const std::string& where) {
 EstimateRow row_of(const FilterCircuit& circuit, const CircuitDesign& design, Step t, bool seen,
                    const hardware::Estimate& estimate) {
   const hardware::Datapath& path = circuit.datapath;
-  const bool chain = design.architecture->chain;
-  const std::uint64_t offered = chain ? design.registers.proposals() : design.registers.particles;
+  const std::uint64_t offered = design.architecture->offered(design.registers, design.lanes);
   EstimateRow row{t, {}, {}, {}};
   for (std::size_t d = 0; d < path.states.size(); ++d) row.states.push_back({path.mean(d, estimate.mean[d]), kNaN});
   const double octaves = hardware::log2_evidence(estimate, path.arithmetic.formats, offered) + path.constant;
   row.report.log_evidence = seen ? octaves * std::numbers::ln2 : 0;
   row.report.ess = kNaN;
-  if (chain && offered > 1)
-    row.report.acceptance = static_cast<double>(estimate.accepted) / static_cast<double>(offered - 1);
+  if (design.architecture->chain && offered > design.lanes)
+    row.report.acceptance = static_cast<double>(estimate.accepted) / static_cast<double>(offered - design.lanes);
   return row;
 }
 
@@ -78,8 +77,8 @@ std::vector<std::vector<std::int64_t>> observed_by(const FilterCircuit& circuit,
   return observed;
 }
 
-CircuitSimulation simulated(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
-                            const std::string& where) {
+CircuitSimulation simulated_run(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
+                                const std::string& where) {
   const auto observed = observed_by(circuit, recording, where);
   hardware::Simulator simulator(*circuit.machine);
   const hardware::CircuitRun run = simulator.run(design.registers, observed);
@@ -89,7 +88,8 @@ CircuitSimulation simulated(const FilterCircuit& circuit, const CircuitDesign& d
 
 RunRecord golden_run(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
                      const std::string& where) {
-  const auto golden = design.architecture->golden(circuit.datapath.arithmetic, design.seed);
+  const auto golden =
+      design.architecture->golden(circuit.datapath.arithmetic, design.seed, circuit.machine->capacity());
   golden->start(design.registers);
   std::vector<hardware::Estimate> estimates;
   for (const auto& step : observed_by(circuit, recording, where)) estimates.push_back(golden->step(step));

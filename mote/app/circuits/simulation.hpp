@@ -22,8 +22,8 @@ std::vector<std::vector<std::int64_t>> observed_by(const FilterCircuit& circuit,
 /// Simulates a recording.
 ///
 /// error   as observed_by(); Refusal (kOutsideTool) when Verilator is missing or fails
-CircuitSimulation simulated(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
-                            const std::string& where);
+CircuitSimulation simulated_run(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
+                                const std::string& where);
 
 /// The golden model's run of a recording by the design's seed, without a simulation: what the circuit would give.
 RunRecord golden_run(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,

@@ -59,7 +59,7 @@ ExitCode run_rtl(const Arguments& arguments) {
   const FilterCircuit circuit = filter_circuit(*job.model, job.model_name, design);
   if (family) found.cost = hardware::cost_of(*circuit.machine, *family);
   if (arguments.given("--simulate"))
-    found.simulation = simulated(circuit, design, job.recording, arguments.text("--simulate"));
+    found.simulation = simulated_run(circuit, design, job.recording, arguments.text("--simulate"));
   if (job.truth) found.summary = summarise(found.simulation->record, &*job.truth);
   if (arguments.given("--out"))
     write_design(outputs, arguments.text("--out"), circuit, found,

@@ -1,7 +1,8 @@
 #include "mote/app/commands/rtl_options.hpp"
 
 #include <algorithm>
-#include <map>
+#include <bit>
+#include <tuple>
 
 #include "mote/base/refusal.hpp"
 
@@ -13,15 +14,39 @@ using hardware::architectures;
 
 constexpr long long kMostInCircuit = 65536;
 
-/// Registers that the architecture does not have are no use to be told.
-void refuse_unread(const Arguments& arguments, const Architecture& architecture) {
-  const std::map<std::string, std::string> registers{
-      {"--draws", "draws"}, {"--burn-in", "burn_in"}, {"--chain-mean", "chain_mean"}, {"--lanes", "lanes"}};
-  for (const auto& [option, name] : registers)
-    if (arguments.given(option) && std::none_of(architecture.registers.begin(), architecture.registers.end(),
-                                                [&](const auto& one) { return one.name == name; }))
+/// What an architecture has no register or room for is no use to be asked for.
+void refuse_unread(const Arguments& arguments, const CircuitDesign& design) {
+  const Architecture& architecture = *design.architecture;
+  const auto has = [&](const std::string& name) {
+    return std::any_of(architecture.registers.begin(), architecture.registers.end(),
+                       [&](const auto& one) { return one.name == name; });
+  };
+  const hardware::RunRegisters& r = design.registers;
+  const std::tuple<const char*, bool, bool> options[] = {{"--draws", r.draws != r.particles, has("draws")},
+                                                         {"--burn-in", r.burn_in != 0, has("burn_in")},
+                                                         {"--chain-mean", r.chain_mean, has("chain_mean")},
+                                                         {"--lanes", design.lanes != 1, architecture.most_lanes > 1}};
+  for (const auto& [option, asked, taken] : options)
+    if (asked && !taken)
       throw Refusal(ExitCode::kWrongUse, {arguments.where(), option, "an architecture that has it",
                                           std::string(architecture.name), "Leave it out, or pass another --arch."});
+}
+
+unsigned lanes_from(const Arguments& arguments, const CircuitDesign& design) {
+  constexpr unsigned kUsual = 4;
+  if (!arguments.given("--lanes")) return std::min(kUsual, design.architecture->most_lanes);
+  return static_cast<unsigned>(arguments.integer("--lanes", 1, 64));
+}
+
+/// Lanes share the particles evenly, and are counted by bits.
+void refuse_uneven(const Arguments& arguments, const CircuitDesign& design) {
+  const unsigned most = design.architecture->most_lanes;
+  const bool even = design.registers.particles % design.lanes == 0 && design.registers.draws % design.lanes == 0;
+  if (std::has_single_bit(design.lanes) && design.lanes <= most && even) return;
+  throw Refusal(ExitCode::kWrongUse,
+                {arguments.where(), "--lanes",
+                 "a power of two from 1 to " + std::to_string(most) + " that divides --particles and --draws",
+                 std::to_string(design.lanes), "Pass --lanes 1, or other --particles."});
 }
 
 }  // namespace
@@ -34,7 +59,7 @@ std::vector<OptionSpec> circuit_options() {
           {"--draws", "Q", "", "imh: proposals a step beside the burn-in, at least N [N]", "Circuit"},
           {"--burn-in", "NB", "0", "imh: proposals that the chain forgets", "Circuit"},
           {"--chain-mean", "", "", "imh: estimate from the kept states instead of all weighted proposals", "Circuit"},
-          {"--lanes", "L", "1", "lanes side by side (chains, where there are chains)", "Circuit"},
+          {"--lanes", "L", "", "imh-parallel: chains, sisr-lanes: lanes, a power of two [4]", "Circuit"},
           {"--seed", "S", "1", "seed of the circuit's generators; same seed, same words", "Circuit"},
           {"--synth", "FAMILY", "", "what it takes of a device: xc7, ice40 or ecp5 (Yosys, nextpnr) [none]", "Checks"}};
 }
@@ -51,7 +76,9 @@ CircuitDesign circuit_design_from(const Arguments& arguments) {
   design.registers.burn_in = static_cast<std::uint32_t>(arguments.integer("--burn-in", 0, kMostInCircuit));
   design.registers.chain_mean = arguments.given("--chain-mean");
   design.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 0, 9223372036854775807LL));
-  refuse_unread(arguments, *design.architecture);
+  design.lanes = lanes_from(arguments, design);
+  refuse_unread(arguments, design);
+  refuse_uneven(arguments, design);
   return design;
 }
 

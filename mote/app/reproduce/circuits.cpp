@@ -41,7 +41,7 @@ double CircuitBench::step_cycles_over_law(const Recording& recording) {
     return static_cast<double>(simulator.run(design_.registers, {observed.begin(), end}).cycles);
   };
   const hardware::ImhLatency latency(circuit().machine->formats());
-  const double law = sequential_time(design_.registers.proposals(), {1, 1, 1},
+  const double law = sequential_time(design_.registers.proposals(design_.lanes), {1, 1, 1},
                                      {static_cast<double>(latency.propose), static_cast<double>(latency.weigh)});
   return (cycles(observed.size()) - cycles(1)) / (static_cast<double>(observed.size() - 1) * law);
 }
@@ -49,7 +49,7 @@ double CircuitBench::step_cycles_over_law(const Recording& recording) {
 double CircuitBench::figure(const std::string& key, const Recording& recording) {
   if (key == "step_cycles_over_law") return step_cycles_over_law(recording);
   if (!found_) {
-    found_ = CircuitReport{job_.model_name, "", design_, {}, simulated(circuit(), design_, recording, where_), {}};
+    found_ = CircuitReport{job_.model_name, "", design_, {}, simulated_run(circuit(), design_, recording, where_), {}};
     if (family_) found_->cost = hardware::cost_of(*circuit().machine, *family_);
   }
   const nlohmann::json value = circuit_json(circuit(), *found_)[key];

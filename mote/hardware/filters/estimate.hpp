@@ -2,6 +2,7 @@
 /// Sums over a step's particles and the means by division, golden twin of rtl/filters/mote_estimate.sv.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "mote/hardware/filters/arithmetic.hpp"
@@ -23,43 +24,18 @@ struct Estimate {
 /// model.
 double log2_evidence(const Estimate& estimate, const Formats& formats, std::uint64_t proposals);
 
-/// Sums of weights, at a scale that rises with them.
-class WeightSum {
- public:
-  void first(const ScaledWeight& w) { set(w.weight, w.scale); }
-  void next(const ScaledWeight& w) { set((sum_ >> (kQuantum * w.rise)) + w.weight, w.scale); }
-  std::uint64_t sum() const { return sum_; }
-  std::int64_t scale() const { return scale_; }
+/// Sum of a step's weights, at the scale of the last.
+std::uint64_t sum_of(std::span<const ScaledWeight> weights);
 
- private:
-  void set(std::uint64_t sum, std::int64_t scale) {
-    sum_ = sum;
-    scale_ = scale;
-  }
-  std::uint64_t sum_ = 0;
-  std::int64_t scale_ = 0;
-};
+/// Weighted means of a step's states: sum v x / divisor, cut towards zero, each sum going down by the scale's rise
+/// before a row is added.
+///
+/// shape   states: dims columns of n; weights: (n); means: (dims), `extra` fraction bits more than the states
+std::vector<std::int64_t> weighted_means(const Particles& states, std::span<const ScaledWeight> weights,
+                                         std::uint64_t divisor, unsigned extra);
 
-/// Sums of weighted values: sum v x, each sum going down by the scale's rise before a term is added.
-class ValueSums {
- public:
-  explicit ValueSums(std::size_t dims) : totals_(dims) {}
-  void first(const Particles& states, std::size_t at, std::uint64_t weight) {
-    for (std::size_t d = 0; d < totals_.size(); ++d) totals_[d] = term(states[d][at], weight);
-  }
-  void next(const Particles& states, std::size_t at, std::uint64_t weight, unsigned rise) {
-    for (std::size_t d = 0; d < totals_.size(); ++d)
-      totals_[d] = (totals_[d] >> (kQuantum * rise)) + term(states[d][at], weight);
-  }
-  /// Quotients total 2^extra / divisor, cut towards zero.
-  std::vector<std::int64_t> divided(std::uint64_t divisor, unsigned extra) const;
-
- private:
-  static std::int64_t term(std::int64_t value, std::uint64_t weight) {
-    return value * static_cast<std::int64_t>(weight);
-  }
-  std::vector<std::int64_t> totals_;
-};
+/// Stages by which a row of several lanes is added up.
+constexpr std::uint64_t row_cycles(std::size_t lanes) { return lanes > 1 ? 1 : 0; }
 
 /// Cycles from taking the sums of a step to its estimate on the stream.
 constexpr std::uint64_t division_cycles(const Formats& f) {

@@ -1,32 +1,40 @@
 #include "mote/hardware/filters/imh.hpp"
 
+#include <bit>
 #include <utility>
 
 namespace mote::hardware {
 
-Imh::Imh(Arithmetic arithmetic, std::uint64_t seed, unsigned stream)
-    : arithmetic_(std::move(arithmetic)), parent_words_(seed, stream), accept_words_(seed, stream + 1) {
-  for (unsigned w = 0; w < arithmetic_.formats.draw_words; ++w) draw_words_.emplace_back(seed, stream + 2 + w);
+Imh::Imh(Arithmetic arithmetic, std::uint64_t seed, unsigned stream, ImhLanes lanes)
+    : arithmetic_(std::move(arithmetic)), lanes_(lanes) {
+  for (unsigned lane = 0; lane < lanes.count; ++lane) {
+    parent_words_.emplace_back(seed, stream++);
+    accept_words_.emplace_back(seed, stream++);
+    for (unsigned w = 0; w < arithmetic_.formats.draw_words; ++w) draw_words_.emplace_back(seed, stream++);
+  }
 }
 
 void Imh::start(const ImhRegisters& registers) {
   registers_ = registers;
   t_ = 0;
   pace_ = Pace{};
-  const std::size_t n = registers.proposals();
+  const std::size_t n = std::size_t{registers.proposals(lanes_.count)} * lanes_.count;
   const Formats& f = arithmetic_.formats;
   set_.assign(f.dims, std::vector<std::int64_t>(registers.particles));
   parents_.assign(f.dims, std::vector<std::int64_t>(n));
   proposals_ = parents_;
   words_.assign(f.draw_words, std::vector<std::uint32_t>(n));
   log_weights_.assign(n, 0);
+  weights_.assign(n, {});
   kept_.assign(registers.particles, 0);
 }
 
 Estimate Imh::step(Observed observed) {
   ++t_;
-  draw(observed);
-  const std::uint64_t accepted = decide();
+  choose_parents();
+  propose(observed);
+  std::uint64_t accepted = 0;
+  for (unsigned lane = 0; lane < lanes_.count; ++lane) accepted += decide(lane);
   for (std::size_t d = 0; d < set_.size(); ++d)
     for (std::size_t k = 0; k < kept_.size(); ++k) set_[d][k] = proposals_[d][kept_[k]];
   keep_time();
@@ -35,24 +43,40 @@ Estimate Imh::step(Observed observed) {
   return estimate;
 }
 
-void Imh::draw(Observed observed) {
-  for (std::size_t j = 0; j < log_weights_.size(); ++j) {
-    const std::size_t i = (std::uint64_t{parent_words_.next() >> 8} * registers_.particles) >> 24;
-    for (std::size_t d = 0; d < set_.size(); ++d) parents_[d][j] = set_[d][i];
+void Imh::choose_parents() {
+  const unsigned lanes = lanes_.count;
+  const std::uint32_t slots = registers_.particles / lanes;
+  const int low = 8 - std::countr_zero(lanes);
+  for (std::size_t row = 0; row < log_weights_.size(); row += lanes) {
+    const std::uint32_t turn = parent_words_[0].word() >> low;
+    for (unsigned lane = 0; lane < lanes; ++lane) {
+      const std::uint32_t word = parent_words_[lane].next();
+      const std::uint32_t chain = lanes_.parents == Parents::kPrivate  ? lane
+                                  : lanes_.parents == Parents::kBanked ? lane + turn
+                                                                       : word >> low;
+      const std::size_t i = ((std::uint64_t{word >> 8} * slots) >> 24) * lanes + chain % lanes;
+      for (std::size_t d = 0; d < set_.size(); ++d) parents_[d][row + lane] = set_[d][i];
+    }
   }
-  for (std::size_t w = 0; w < words_.size(); ++w) draw_words_[w].fill(words_[w]);
+}
+
+void Imh::propose(Observed observed) {
+  const std::size_t columns = words_.size();
+  for (std::size_t w = 0; w < columns; ++w)
+    for (std::size_t j = 0; j < words_[w].size(); ++j)
+      words_[w][j] = draw_words_[j % lanes_.count * columns + w].next();
   arithmetic_.propose(t_, observed, parents_, words_, proposals_);
   arithmetic_.weigh(t_, observed, proposals_, log_weights_);
 }
 
-/// Runs the chain; says how often it moved.
-std::uint64_t Imh::decide() {
+/// Runs the chain of a lane; says how often it moved.
+std::uint64_t Imh::decide(unsigned lane) {
   const std::size_t dropped = log_weights_.size() - kept_.size();
-  std::uint32_t current = 0;
+  std::uint32_t current = lane;
   std::uint64_t accepted = 0;
-  for (std::uint32_t j = 0; j < log_weights_.size(); ++j) {
-    const std::int64_t drop = log_drop(accept_words_.next());
-    if (j > 0 && log_weights_[current] <= log_weights_[j] + drop) {
+  for (std::uint32_t j = lane; j < log_weights_.size(); j += lanes_.count) {
+    const std::int64_t drop = log_drop(accept_words_[lane].next());
+    if (j > lane && log_weights_[current] <= log_weights_[j] + drop) {
       current = j;
       ++accepted;
     }
@@ -61,32 +85,21 @@ std::uint64_t Imh::decide() {
   return accepted;
 }
 
-Estimate Imh::infer() const {
+Estimate Imh::infer() {
   const Formats& f = arithmetic_.formats;
-  RunningScale scale(f.weight_bits);
-  WeightSum sum;
-  ValueSums values(f.dims);
-  for (std::size_t j = 0; j < log_weights_.size(); ++j) {
-    const ScaledWeight w = j == 0 ? scale.first(log_weights_[j]) : scale.next(log_weights_[j]);
-    j == 0 ? sum.first(w) : sum.next(w);
-    if (!registers_.chain_mean)
-      j == 0 ? values.first(proposals_, j, w.weight) : values.next(proposals_, j, w.weight, w.rise);
-  }
-  std::uint64_t divisor = sum.sum();
-  if (registers_.chain_mean) {
-    constexpr std::uint64_t kOne = 1 << 16;
-    values.first(set_, 0, kOne);
-    for (std::size_t k = 1; k < kept_.size(); ++k) values.next(set_, k, kOne, 0);
-    divisor = kept_.size() * kOne;
-  }
-  return {values.divided(divisor, f.extra_bits), sum.sum(), sum.scale(), 0};
+  scale_weights(log_weights_, lanes_.count, f.weight_bits, weights_);
+  const std::uint64_t sum = sum_of(weights_);
+  const std::int64_t scale = weights_.back().scale;
+  if (!registers_.chain_mean) return {weighted_means(proposals_, weights_, sum, f.extra_bits), sum, scale, 0};
+  const std::vector<ScaledWeight> equal(kept_.size(), {1 << 16, 0, 0});
+  return {weighted_means(set_, equal, sum_of(equal), f.extra_bits), sum, scale, 0};
 }
 
 void Imh::keep_time() {
   pace_.begin();
-  const std::uint64_t decided = pace_.begun() + ImhLatency(arithmetic_.formats).step(registers_);
+  const std::uint64_t decided = pace_.begun() + ImhLatency(arithmetic_.formats).step(registers_, lanes_.count);
   pace_.free_from(decided);
-  pace_.sums_stand(decided + 8, division_cycles(arithmetic_.formats));
+  pace_.sums_stand(decided + 8 + row_cycles(lanes_.count), division_cycles(arithmetic_.formats));
 }
 
 }  // namespace mote::hardware

@@ -4,10 +4,20 @@
 #include <utility>
 
 namespace mote::hardware {
+namespace {
 
-Sisr::Sisr(Arithmetic arithmetic, std::uint64_t seed, unsigned stream)
-    : arithmetic_(std::move(arithmetic)), resample_words_(seed, stream) {
-  for (unsigned w = 0; w < arithmetic_.formats.draw_words; ++w) draw_words_.emplace_back(seed, stream + 1 + w);
+constexpr std::uint64_t kOtherTurn = 8;  ///< cycles of a turn of the loops that normalise and resample
+
+}  // namespace
+
+Sisr::Sisr(Arithmetic arithmetic, std::uint64_t seed, unsigned stream, unsigned lanes)
+    : arithmetic_(std::move(arithmetic)), lanes_(lanes), resample_words_(seed, stream) {
+  for (unsigned w = 0; w < lanes * arithmetic_.formats.draw_words; ++w) draw_words_.emplace_back(seed, stream + 1 + w);
+}
+
+Sisr::Sisr(Arithmetic arithmetic, std::uint64_t seed, unsigned stream, PlainLoops loops)
+    : Sisr(std::move(arithmetic), seed, stream) {
+  loops_ = loops;
 }
 
 void Sisr::start(std::uint32_t particles) {
@@ -19,58 +29,105 @@ void Sisr::start(std::uint32_t particles) {
   words_.assign(f.draw_words, std::vector<std::uint32_t>(particles));
   log_weights_.assign(particles, 0);
   weights_.assign(particles, {});
-  issued_.assign(particles, 0);
-  written_.assign(particles, 0);
+  issued_.assign(particles / lanes_, 0);
+  written_ = issued_;
 }
 
 Estimate Sisr::step(Observed observed) {
   ++t_;
-  pace_.begin();
-  choose_parents();
-  for (std::size_t w = 0; w < words_.size(); ++w) draw_words_[w].fill(words_[w]);
+  if (!loops_) pace_.begin();
+  if (t_ > 1) choose_parents();
+  if (loops_) pace_.begin();
+  const std::size_t columns = words_.size();
+  for (std::size_t w = 0; w < columns; ++w)
+    for (std::size_t j = 0; j < words_[w].size(); ++j) words_[w][j] = draw_words_[j % lanes_ * columns + w].next();
   arithmetic_.propose(t_, observed, parents_, words_, set_);
   arithmetic_.weigh(t_, observed, set_, log_weights_);
-  keep_time();
+  loops_ ? keep_loops_time() : keep_time();
   return infer();
 }
 
-/// Walks the weights of the step before, as its parents are taken one a cycle.
 void Sisr::choose_parents() {
-  if (t_ == 1) {
-    std::iota(issued_.begin(), issued_.end(), pace_.begun() + 1);
-    return;
-  }
+  const std::vector<std::uint32_t> parents = loops_ ? walk_last() : lanes_ == 1 ? walk_alone() : walk_abreast();
+  for (std::size_t d = 0; d < set_.size(); ++d)
+    for (std::size_t j = 0; j < parents.size(); ++j) parents_[d][j] = set_[d][parents[j]];
+}
+
+/// Walks the weights of the step before, as its parents are taken one a cycle.
+std::vector<std::uint32_t> Sisr::walk_alone() {
   const std::vector<std::uint64_t> sums = cumulative_sums(weights_);
   SystematicWalk walk(sums, total_, uniform_, written_, written_.back() - 3);
-  for (std::size_t j = 0; j < issued_.size();) {
+  std::vector<std::uint32_t> parents;
+  while (parents.size() < issued_.size()) {
     std::uint32_t parent = 0;
     const std::uint64_t now = walk.now();
     if (!walk.cycle(now > pace_.begun(), parent)) continue;
-    for (std::size_t d = 0; d < set_.size(); ++d) parents_[d][j] = set_[d][parent];
-    issued_[j++] = now;
+    issued_[parents.size()] = now;
+    parents.push_back(parent);
   }
+  return parents;
+}
+
+/// The same by groups of lanes.
+std::vector<std::uint32_t> Sisr::walk_abreast() {
+  const Offspring offspring{arithmetic_.formats.weight_bits, arithmetic_.formats.count_bits};
+  const std::vector<std::uint32_t> ends = offspring.ends(weights_, total_, uniform_);
+  ChildrenWalk walk(ends, lanes_, written_.back());
+  for (std::size_t k = 0; k < issued_.size();) {
+    const std::uint64_t now = walk.now();
+    if (walk.cycle(now > pace_.begun())) issued_[k++] = now;
+  }
+  return parents_of(ends);
+}
+
+/// The walk as the last loop of the step before; the next step begins when it is through.
+std::vector<std::uint32_t> Sisr::walk_last() {
+  const std::vector<std::uint64_t> sums = cumulative_sums(weights_);
+  SystematicWalk walk(sums, total_, uniform_, written_, written_.back() - 3);
+  std::vector<std::uint32_t> parents;
+  for (std::uint64_t turn = written_.back() + 1; parents.size() < sums.size();) {
+    std::uint32_t parent = 0;
+    const std::uint64_t now = walk.now();
+    if (!walk.cycle(now >= turn, parent)) continue;
+    parents.push_back(parent);
+    turn = now + (loops_->pipelined ? 1 : kOtherTurn);
+    pace_.free_from(now + 1);
+  }
+  return parents;
 }
 
 Estimate Sisr::infer() {
   const Formats& f = arithmetic_.formats;
-  RunningScale scale(f.weight_bits);
-  WeightSum sum;
-  ValueSums values(f.dims);
-  for (std::size_t j = 0; j < weights_.size(); ++j) {
-    const ScaledWeight w = weights_[j] = j == 0 ? scale.first(log_weights_[j]) : scale.next(log_weights_[j]);
-    j == 0 ? sum.first(w) : sum.next(w);
-    j == 0 ? values.first(set_, j, w.weight) : values.next(set_, j, w.weight, w.rise);
-  }
-  total_ = sum.sum();
+  scale_weights(log_weights_, lanes_, f.weight_bits, weights_);
+  total_ = sum_of(weights_);
   uniform_ = resample_words_.next() >> 8;
-  return {values.divided(total_, f.extra_bits), total_, sum.scale(), 0};
+  return {weighted_means(set_, weights_, total_, f.extra_bits), total_, weights_.back().scale, 0};
 }
 
 void Sisr::keep_time() {
   const Formats& f = arithmetic_.formats;
+  if (t_ == 1) std::iota(issued_.begin(), issued_.end(), pace_.begun() + 1);
   const std::uint64_t model = 3 + f.propose_latency + f.weigh_latency;
-  for (std::size_t j = 0; j < issued_.size(); ++j) written_[j] = issued_[j] + model + 5;
+  for (std::size_t k = 0; k < issued_.size(); ++k) written_[k] = issued_[k] + model + 5;
   pace_.free_from(issued_.back() + model);
+  pace_.sums_stand(written_.back() + 4 + row_cycles(lanes_), division_cycles(f));
+}
+
+/// A loop's turns take `turn` cycles, or one each and the rest at the end.
+void Sisr::keep_loops_time() {
+  const Formats& f = arithmetic_.formats;
+  const std::uint64_t n = written_.size();
+  const auto every = [&](std::uint64_t turn) { return loops_->pipelined ? 1 : turn; };
+  std::uint64_t begins = pace_.begun() + 1;
+  const auto pass = [&](std::uint64_t turn) { begins += (n - 1) * every(turn) + turn; };
+  std::uint64_t last = kOtherTurn;
+  if (loops_->merged) {
+    last = f.propose_latency + f.weigh_latency + 10;
+  } else {
+    pass(f.propose_latency + 5);
+    pass(f.weigh_latency + 3);
+  }
+  for (std::uint64_t k = 0; k < n; ++k) written_[k] = begins + k * every(last) + last - 1;
   pace_.sums_stand(written_.back() + 4, division_cycles(f));
 }
 

@@ -1,5 +1,6 @@
 #include "mote/hardware/filters/weights.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <fstream>
@@ -24,6 +25,17 @@ void write(const std::filesystem::path& file, const Table& table) {
   for (const auto entry : table) out << static_cast<unsigned>(entry) << '\n';
   out.close();
   if (!out) throw Refusal(ExitCode::kCannotWrite, {file.string(), "", "a file to write a table to", "an error", ""});
+}
+
+/// Shifts by a quantum of scale; seven quanta and more count as seven.
+unsigned limited(std::int64_t quanta) { return quanta > 7 ? 7 : static_cast<unsigned>(quanta); }
+
+std::int64_t scale_needed(std::int64_t log_weight) { return (log_weight >> (kLogFraction + 3)) + 1; }
+
+std::uint64_t weight_at(std::int64_t log_weight, std::int64_t scale, unsigned weight_bits) {
+  const std::uint64_t power = exp2_table()[static_cast<std::size_t>(log_weight & 1023)];
+  const auto fine = static_cast<unsigned>(7 - ((log_weight >> kLogFraction) & 7));
+  return ((power << (weight_bits - 16)) >> (kQuantum * limited(scale - scale_needed(log_weight)))) >> fine;
 }
 
 }  // namespace
@@ -52,6 +64,20 @@ std::int64_t log_drop(std::uint32_t word) {
   const std::uint32_t leading = word == 0 ? 0 : word << zeros;
   const std::uint32_t mantissa = (leading >> 21) & 1023;
   return ((zeros + 1) << kLogFraction) - static_cast<std::int64_t>(mantissa + log2_table()[mantissa >> 3]);
+}
+
+void scale_weights(std::span<const std::int64_t> log_weights, std::size_t lanes, unsigned weight_bits,
+                   std::span<ScaledWeight> weights) {
+  std::int64_t scale = 0;
+  for (std::size_t row = 0; row < log_weights.size(); row += lanes) {
+    const auto in = log_weights.subspan(row, lanes);
+    const std::int64_t needed = scale_needed(*std::max_element(in.begin(), in.end()));
+    const std::int64_t risen = row == 0 ? needed : std::max(scale, needed);
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      weights[row + lane] = {weight_at(in[lane], risen, weight_bits), 0, risen};
+    if (row > 0) weights[row].rise = limited(risen - scale);
+    scale = risen;
+  }
 }
 
 }  // namespace mote::hardware

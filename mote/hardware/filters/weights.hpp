@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 
 namespace mote::hardware {
 
@@ -29,40 +30,16 @@ std::int64_t log_drop(std::uint32_t word);
 /// A weight at the scale of the largest so far.
 struct ScaledWeight {
   std::uint64_t weight;  ///< 2^(lw - 8 scale) 2^weight_bits, cut
-  unsigned rise;         ///< quanta that the scale rose by, at most 7
+  unsigned rise;         ///< quanta that sums so far go down by before it is added, at most 7
   std::int64_t scale;    ///< quanta of 8 octaves
 };
 
-/// One pass over log weights that gives weights: sums so far go down by `rise` quanta before a weight is added.
+/// Weights from a step's log weights by one pass over rows of `lanes`, at a scale that rises with the largest so far:
 ///
-///   scale <- max(scale, floor(lw / 8) + 1)
-class RunningScale {
- public:
-  explicit RunningScale(unsigned weight_bits) : weight_bits_(weight_bits) {}
-
-  ScaledWeight first(std::int64_t log_weight) {
-    scale_ = needed(log_weight);
-    return {weight_of(log_weight), 0, scale_};
-  }
-  ScaledWeight next(std::int64_t log_weight) {
-    const std::int64_t before = scale_;
-    if (const std::int64_t need = needed(log_weight); need > scale_) scale_ = need;
-    return {weight_of(log_weight), limited(scale_ - before), scale_};
-  }
-
-  /// Shifts by a quantum of scale; seven quanta and more count as seven.
-  static unsigned limited(std::int64_t quanta) { return quanta > 7 ? 7 : static_cast<unsigned>(quanta); }
-  static std::int64_t needed(std::int64_t log_weight) { return (log_weight >> (kLogFraction + 3)) + 1; }
-
- private:
-  std::uint64_t weight_of(std::int64_t log_weight) const {
-    const std::uint64_t power = exp2_table()[static_cast<std::size_t>(log_weight & 1023)];
-    const auto fine = static_cast<unsigned>(7 - ((log_weight >> kLogFraction) & 7));
-    return ((power << (weight_bits_ - 16)) >> (kQuantum * limited(scale_ - needed(log_weight)))) >> fine;
-  }
-
-  unsigned weight_bits_;
-  std::int64_t scale_ = 0;
-};
+///   scale <- max(scale, floor(lw / 8) + 1 of every lane)
+///
+/// shape   weights, log_weights: (n), n a multiple of lanes; the rise of a row is its first weight's
+void scale_weights(std::span<const std::int64_t> log_weights, std::size_t lanes, unsigned weight_bits,
+                   std::span<ScaledWeight> weights);
 
 }  // namespace mote::hardware

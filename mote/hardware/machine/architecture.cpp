@@ -11,7 +11,8 @@ namespace {
 template <class Filter>
 class GoldenOf final : public Golden {
  public:
-  GoldenOf(const Arithmetic& arithmetic, std::uint64_t seed) : filter_(arithmetic, seed) {}
+  template <class... How>
+  explicit GoldenOf(const How&... how) : filter_(how...) {}
 
   void start(const RunRegisters& registers) override {
     if constexpr (requires { filter_.start(registers); })
@@ -27,9 +28,16 @@ class GoldenOf final : public Golden {
   Filter filter_;
 };
 
-template <class Filter>
-std::unique_ptr<Golden> golden_of(const Arithmetic& arithmetic, std::uint64_t seed) {
-  return std::make_unique<GoldenOf<Filter>>(arithmetic, seed);
+std::unique_ptr<Golden> golden_chains(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity& capacity) {
+  return std::make_unique<GoldenOf<Imh>>(arithmetic, seed, 0, ImhLanes{capacity.lanes, Parents::kBanked});
+}
+
+std::unique_ptr<Golden> golden_cloud(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity& capacity) {
+  return std::make_unique<GoldenOf<Sisr>>(arithmetic, seed, 0, capacity.lanes);
+}
+
+std::unique_ptr<Golden> golden_loops(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity&) {
+  return std::make_unique<GoldenOf<Sisr>>(arithmetic, seed, 0, PlainLoops{});
 }
 
 const Register kParticles{"n", "N, particles, from 1", false, [](const RunRegisters& r) { return r.particles; }};
@@ -42,27 +50,36 @@ const Register kChainMean{"chain_mean", "1: the mean over the kept states, 0: ov
 
 unsigned bits_for(std::uint32_t count) { return static_cast<unsigned>(ceil_log2(count)); }
 
-/// A chain keeps `most` particles of up to 2^at proposals.
-Capacity chain_capacity(const RunRegisters& r) {
+/// Chains keep `most` particles of up to 2^at proposals.
+Capacity chain_capacity(const RunRegisters& r, unsigned lanes) {
   const std::uint32_t most = std::max(2U, std::bit_ceil(r.particles));
-  return {std::max(bits_for(r.proposals()), bits_for(most)), most};
+  return {std::max(bits_for(lanes * r.proposals(lanes)), bits_for(most)), most, lanes};
 }
 
-Capacity cloud_capacity(const RunRegisters& r) {
-  const unsigned at = std::max(2U, bits_for(r.particles));
-  return {at, 1U << at};
+Capacity cloud_capacity(const RunRegisters& r, unsigned lanes) {
+  const unsigned at = std::max(lanes > 1 ? 6U : 2U, bits_for(r.particles));
+  return {at, 1U << at, lanes};
 }
 
-std::vector<Parameter> chain_parameters(const Capacity& c) { return {parameter("Most", static_cast<int>(c.most))}; }
+std::vector<Parameter> chain_parameters(const Capacity& c) {
+  return {parameter("Lanes", static_cast<int>(c.lanes)), parameter("Most", static_cast<int>(c.most))};
+}
+
+std::vector<Parameter> cloud_parameters(const Capacity& c) { return {parameter("Lanes", static_cast<int>(c.lanes))}; }
 
 std::vector<Parameter> no_parameters(const Capacity&) { return {}; }
 
-std::string chain_range(const Capacity& c) {
-  return "1 <= n_i <= " + std::to_string(c.most) +
-         ", n_i <= draws_i, draws_i + burn_in_i <= " + std::to_string(1U << c.at);
+std::string of_lanes(const Capacity& c, const std::string& what) {
+  return c.lanes == 1 ? "" : ", " + what + " multiples of " + std::to_string(c.lanes);
 }
 
-std::string cloud_range(const Capacity& c) { return "1 <= n_i <= " + std::to_string(c.most); }
+std::string chain_range(const Capacity& c) {
+  const std::string burn_in = c.lanes == 1 ? "burn_in_i" : std::to_string(c.lanes) + " burn_in_i";
+  return "1 <= n_i <= " + std::to_string(c.most) + ", n_i <= draws_i, draws_i + " + burn_in +
+         " <= " + std::to_string(1U << c.at) + of_lanes(c, "n_i and draws_i");
+}
+
+std::string cloud_range(const Capacity& c) { return "1 <= n_i <= " + std::to_string(c.most) + of_lanes(c, "n_i"); }
 
 }  // namespace
 
@@ -73,23 +90,61 @@ const std::vector<Architecture>& architectures() {
        "mote_imh",
        "mote/hardware/filters/imh.hpp",
        {kParticles, kDraws, kBurnIn, kChainMean},
+       1,
        true,
        5,
        chain_parameters,
        chain_range,
        chain_capacity,
-       golden_of<Imh>},
+       golden_chains},
+      {"imh-parallel",
+       "independent Metropolis-Hastings, chains in lockstep, parents from all of them in turn",
+       "mote_imh",
+       "mote/hardware/filters/imh.hpp",
+       {kParticles, kDraws, kBurnIn, kChainMean},
+       64,
+       true,
+       5,
+       chain_parameters,
+       chain_range,
+       chain_capacity,
+       golden_chains},
       {"sisr",
        "bootstrap filter, one lane, systematic resampling of a step beside the next one's proposals",
        "mote_sisr",
        "mote/hardware/filters/sisr.hpp",
        {kParticles},
+       1,
+       false,
+       8,
+       cloud_parameters,
+       cloud_range,
+       cloud_capacity,
+       golden_cloud},
+      {"sisr-lanes",
+       "bootstrap filter, lanes abreast, systematic resampling of a step beside the next one's proposals",
+       "mote_sisr",
+       "mote/hardware/filters/sisr.hpp",
+       {kParticles},
+       8,
+       false,
+       8,
+       cloud_parameters,
+       cloud_range,
+       cloud_capacity,
+       golden_cloud},
+      {"sisr-plain",
+       "bootstrap filter in separate loops, nothing overlapped: what the others are measured against",
+       "mote_sisr_plain",
+       "mote/hardware/filters/sisr.hpp",
+       {kParticles},
+       1,
        false,
        8,
        no_parameters,
        cloud_range,
        cloud_capacity,
-       golden_of<Sisr>},
+       golden_loops},
   };
   return all;
 }

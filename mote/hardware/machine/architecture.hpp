@@ -1,6 +1,7 @@
 #pragma once
 /// The filters that a circuit can be: an entry each, from which the top module, its simulation and the program know it.
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -27,8 +28,9 @@ struct Register {
 struct Capacity {
   unsigned at = 10;           ///< counts go up to 2^at
   std::uint32_t most = 1024;  ///< particles; a power of two
+  unsigned lanes = 1;         ///< side by side, each with its own part of the particles
 
-  unsigned slot_bits() const { return static_cast<unsigned>(ceil_log2(most)); }
+  unsigned slot_bits() const { return static_cast<unsigned>(ceil_log2(std::max(2U, most / lanes))); }
 };
 
 /// A filter's golden model, whatever its kind.
@@ -49,12 +51,17 @@ struct Architecture {
   std::string_view module;                                ///< of the library
   std::string_view golden_file;                           ///< where its golden model stands
   std::vector<Register> registers;                        ///< beside start, steps and busy
+  unsigned most_lanes = 1;                                ///< as many as --lanes says, a power of two
   bool chain = false;                                     ///< a chain decides; estimates say how often it moved
   unsigned stages = 0;                                    ///< of its pipeline, beside the model's
   std::vector<Parameter> (*parameters)(const Capacity&);  ///< that other kinds do not have
   std::string (*range)(const Capacity&);                  ///< of its registers, for the data sheet
-  Capacity (*capacity)(const RunRegisters& most);
-  std::unique_ptr<Golden> (*golden)(const Arithmetic&, std::uint64_t seed);
+  Capacity (*capacity)(const RunRegisters& most, unsigned lanes);
+  /// Proposals of a step, of all lanes.
+  std::uint64_t offered(const RunRegisters& r, unsigned lanes) const {
+    return chain ? std::uint64_t{lanes} * r.proposals(lanes) : r.particles;
+  }
+  std::unique_ptr<Golden> (*golden)(const Arithmetic&, std::uint64_t seed, const Capacity&);
 };
 
 /// All kinds, the simplest first.

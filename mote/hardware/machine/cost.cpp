@@ -24,19 +24,20 @@ Circuit filter_alone(const Machine& machine) {
   const Formats& f = machine.formats();
   const Architecture& architecture = machine.architecture();
   const int at = as_int(machine.capacity().at);
-  const int state = as_int(f.dims * f.value_bits);
+  const int state = machine.particle_bits();
+  const int lanes = as_int(machine.capacity().lanes);
   Circuit circuit{std::string(architecture.module), machine.parameters(), {{"start_i"}, {"steps_i", 16}}, {}, 0, true,
                   machine.filter_tables()};
   for (const Register& one : architecture.registers)
     circuit.inputs.push_back({std::string(one.name) + "_i", one.flag ? 1 : at + 1});
   for (const Port& port :
        {Port{"obs_valid_i"}, Port{"obs_i", machine.model().observed_bits()}, Port{"propose_state_i", state},
-        Port{"weigh_log_i", as_int(f.log_bits)}, Port{"est_ready_i"}})
+        Port{"weigh_log_i", lanes * as_int(f.log_bits)}, Port{"est_ready_i"}})
     circuit.inputs.push_back(port);
   circuit.outputs = {{"busy_o"},
                      {"obs_ready_o"},
                      {"propose_state_o", state},
-                     {"propose_words_o", as_int(32 * f.draw_words)},
+                     {"propose_words_o", lanes * as_int(32 * f.draw_words)},
                      {"est_valid_o"},
                      {"est_mean_o", as_int(f.dims * (f.value_bits + f.extra_bits + 1))},
                      {"est_sum_o", as_int(f.weight_bits) + at}};

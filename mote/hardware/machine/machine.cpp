@@ -92,17 +92,20 @@ void refuse_wide_sums(const Formats& f, const Capacity& capacity) {
 
 }  // namespace
 
-Machine::Machine(ModelCircuit model, const Architecture& architecture, const RunRegisters& most, std::uint64_t seed)
+Machine::Machine(ModelCircuit model, const Architecture& architecture, const RunRegisters& most, std::uint64_t seed,
+                 unsigned lanes)
     : name_("mote_" + model.name + "_" + std::string(architecture.name)),
       model_(std::move(model)),
       architecture_(&architecture),
-      capacity_(architecture.capacity(most)),
+      capacity_(architecture.capacity(most, lanes)),
       seed_(seed) {
   std::replace(name_.begin(), name_.end(), '-', '_');
   refuse_wide_sums(formats(), capacity_);
 }
 
 unsigned Machine::stages() const { return architecture_->stages + formats().propose_latency + formats().weigh_latency; }
+
+int Machine::particle_bits() const { return as_int(capacity_.lanes * formats().dims * formats().value_bits); }
 
 int Machine::observation_bits() const { return whole_bytes(model_.observed_bits()); }
 
@@ -169,7 +172,10 @@ std::vector<Memory> Machine::filter_tables() const {
 
 std::string Machine::sheet() const {
   std::vector<Field> particle;
-  for (const Field& state : model_.states) particle.push_back(state);
+  for (unsigned lane = 0; lane < capacity_.lanes; ++lane)
+    for (const Field& state : model_.states)
+      particle.push_back(
+          {capacity_.lanes == 1 ? state.name : state.name + ", lane " + std::to_string(lane), state.format});
   return bit_table("formats   observation, obs_tdata_i", model_.observed) +
          bit_table("          estimate, est_tdata_o", estimate_fields()) +
          bit_table("          particle, set_state_o", particle);

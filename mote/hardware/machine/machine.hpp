@@ -23,7 +23,8 @@ struct DesignFile {
 class Machine {
  public:
   /// shape   most: the most that registers may be told
-  Machine(ModelCircuit model, const Architecture& architecture, const RunRegisters& most, std::uint64_t seed = 1);
+  Machine(ModelCircuit model, const Architecture& architecture, const RunRegisters& most, std::uint64_t seed = 1,
+          unsigned lanes = 1);
 
   const std::string& name() const { return name_; }
   const ModelCircuit& model() const { return model_; }
@@ -31,10 +32,12 @@ class Machine {
   const Formats& formats() const { return model_.arithmetic.formats; }
   const Capacity& capacity() const { return capacity_; }
   std::uint64_t seed() const { return seed_; }
-  std::unique_ptr<Golden> golden() const { return architecture_->golden(model_.arithmetic, seed_); }
+  std::unique_ptr<Golden> golden() const { return architecture_->golden(model_.arithmetic, seed_, capacity_); }
   /// Of its pipeline, from a particle's parent to its weight.
   unsigned stages() const;
 
+  /// Bits of what is written to the particle memory at once: a particle a lane.
+  int particle_bits() const;
   /// Bits of an observation and of an estimate on their streams: whole bytes.
   int observation_bits() const;
   int estimate_bits() const;

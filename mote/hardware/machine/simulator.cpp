@@ -28,13 +28,18 @@ struct Notes {
   CircuitRun* run;
   std::size_t written = 0;
 
+  /// A write holds a slot's particle of every lane; the golden model's sets have them side by side.
   void kept(const std::uint32_t* words) {
     const Formats& f = machine->formats();
-    const auto slot = BitReader(words + 1).take(static_cast<int>(machine->capacity().slot_bits()));
-    BitReader state(words + 1 + words_of(static_cast<int>(machine->capacity().slot_bits())));
-    if (written++ % particles == 0) run->sets.emplace_back(f.dims, std::vector<std::int64_t>(particles));
-    for (unsigned d = 0; d < f.dims; ++d)
-      run->sets.back()[d].at(slot) = state.take_signed(static_cast<int>(f.value_bits));
+    const Capacity& capacity = machine->capacity();
+    const auto slot_bits = static_cast<int>(capacity.slot_bits());
+    const auto slot = BitReader(words + 1).take(slot_bits);
+    BitReader state(words + 1 + words_of(slot_bits));
+    if (written % particles == 0) run->sets.emplace_back(f.dims, std::vector<std::int64_t>(particles));
+    written += capacity.lanes;
+    for (unsigned lane = 0; lane < capacity.lanes; ++lane)
+      for (unsigned d = 0; d < f.dims; ++d)
+        run->sets.back()[d].at(slot * capacity.lanes + lane) = state.take_signed(static_cast<int>(f.value_bits));
   }
   void estimated(const std::uint32_t* words) { run->estimates.push_back(machine->estimate_in(words)); }
 };

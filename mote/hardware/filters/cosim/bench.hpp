@@ -33,15 +33,25 @@ struct Pauses {
   std::uint64_t seed = 1;
 };
 
-/// The `width` bits of a word from `at` on, as a signed number.
-inline std::int64_t signed_field(std::uint64_t word, unsigned at, unsigned width) {
-  return static_cast<std::int64_t>(word << (64 - at - width)) >> (64 - width);
+/// The `width` bits of a port from `at` on, as a signed number.
+template <class Port>
+std::int64_t signed_field(const Port& port, unsigned at, unsigned width) {
+  std::uint64_t bits = 0;
+  if constexpr (std::is_integral_v<Port>) {
+    bits = std::uint64_t{port} >> at;
+  } else {  // 32-bit words
+    for (unsigned word = at / 32; word <= (at + width - 1) / 32; ++word) {
+      const int left = static_cast<int>(32 * word) - static_cast<int>(at);
+      bits |= left < 0 ? std::uint64_t{port[word]} >> -left : std::uint64_t{port[word]} << left;
+    }
+  }
+  return static_cast<std::int64_t>(bits << (64 - width)) >> (64 - width);
 }
 
 template <class Top>
 class Bench {
  public:
-  explicit Bench(const Formats& formats) : formats_(formats) { reset(); }
+  explicit Bench(const Formats& formats, unsigned lanes = 1) : formats_(formats), lanes_(lanes) { reset(); }
   ~Bench() { top_.final(); }
   Bench(const Bench&) = delete;
   Bench& operator=(const Bench&) = delete;
@@ -102,11 +112,14 @@ class Bench {
     top_.clk_i = 0;
     top_.eval();
   }
+  /// Notes a slot of the set, with the states of all lanes.
   void note_kept(std::vector<Particles>& sets, std::size_t particles, std::size_t written) {
-    if (written % particles == 0) sets.push_back(Particles(formats_.dims, std::vector<std::int64_t>(particles)));
-    for (unsigned d = 0; d < formats_.dims; ++d)
-      sets.back()[d].at(top_.kept_slot_o) =
-          signed_field(top_.kept_state_o, d * formats_.value_bits, formats_.value_bits);
+    if (written % (particles / lanes_) == 0)
+      sets.push_back(Particles(formats_.dims, std::vector<std::int64_t>(particles)));
+    for (unsigned lane = 0; lane < lanes_; ++lane)
+      for (unsigned d = 0; d < formats_.dims; ++d)
+        sets.back()[d].at(std::size_t{top_.kept_slot_o} * lanes_ + lane) =
+            signed_field(top_.kept_state_o, (lane * formats_.dims + d) * formats_.value_bits, formats_.value_bits);
   }
   void note_estimate(std::vector<Estimate>& estimates) {
     const unsigned width = formats_.value_bits + formats_.extra_bits + 1;
@@ -120,6 +133,7 @@ class Bench {
   }
 
   Formats formats_;
+  unsigned lanes_;
   Top top_;
 };
 

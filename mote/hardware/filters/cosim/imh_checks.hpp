@@ -13,8 +13,8 @@
 
 namespace mote::hardware::cosim {
 
-/// Writes what $readmemh of the circuits reads to the working folder, where simulations look.
-inline void write_all_tables() {
+/// The formats as they are, once what $readmemh of the circuits reads is in the working folder, where simulations look.
+inline Formats with_tables(const Formats& formats) {
   static const bool written = [] {
     write_tables(std::filesystem::current_path());
     std::ofstream out("growth.hex");
@@ -22,6 +22,7 @@ inline void write_all_tables() {
     return true;
   }();
   EXPECT_TRUE(written);
+  return formats;
 }
 
 /// The registers of an IMH circuit, set on its ports.
@@ -52,10 +53,17 @@ inline std::size_t expect_equal(const Outcome& outcome, Imh& golden, const ImhRe
 }
 
 /// Runs of many sizes, limits included, on one circuit without a reset in between.
-inline std::vector<ImhRegisters> sizes() {
-  return {{1, 1, 0, false},    {1, 1, 0, true},        {2, 5, 1, false},
-          {37, 37, 0, true},   {100, 100, 10, false},  {100, 250, 7, false},
-          {64, 64, 300, true}, {1000, 1000, 0, false}, {1024, 4000, 96, false}};
+inline std::vector<ImhRegisters> sizes(unsigned lanes) {
+  std::vector<ImhRegisters> all{{1, 1, 0, false},    {1, 1, 0, true},        {2, 5, 1, false},
+                                {37, 37, 0, true},   {100, 100, 10, false},  {100, 250, 7, false},
+                                {64, 64, 300, true}, {1000, 1000, 0, false}, {1024, 4096, 0, false}};
+  if (lanes > 1)
+    for (ImhRegisters& r : all) {
+      r.particles += (lanes - r.particles % lanes) % lanes;
+      r.draws += (lanes - r.draws % lanes) % lanes;
+    }
+  if (lanes == 1) all.push_back({1024, 4000, 96, false});
+  return all;
 }
 
 }  // namespace mote::hardware::cosim

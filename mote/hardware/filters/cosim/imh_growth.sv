@@ -1,5 +1,9 @@
 // The IMH filter of growth_propose.sv, for co-simulation.
-module imh_growth (
+module imh_growth #(
+    parameter int unsigned Lanes   = 1,
+    parameter int unsigned Parents = 1,
+    localparam int unsigned SlotWidth = $clog2(1024 / Lanes)
+) (
     input  logic               clk_i,
     input  logic               rst_ni,
     input  logic               start_i,
@@ -13,8 +17,8 @@ module imh_growth (
     output logic               obs_ready_o,
     input  logic        [57:0] obs_i,
     output logic               kept_valid_o,
-    output logic        [9:0]  kept_slot_o,
-    output logic        [35:0] kept_state_o,
+    output logic        [SlotWidth-1:0] kept_slot_o,
+    output logic        [Lanes-1:0][35:0] kept_state_o,
     output logic               est_valid_o,
     input  logic               est_ready_i,
     output logic               est_last_o,
@@ -25,12 +29,12 @@ module imh_growth (
 );
   logic [15:0] t;
   logic [57:0] observed;
-  logic [1:0][17:0] parent, proposed, to_weigh;
-  logic [1:0][31:0] words;
-  logic signed [23:0] log_weight;
+  logic [Lanes-1:0][1:0][17:0] parent, proposed, to_weigh;
+  logic [Lanes-1:0][1:0][31:0] words;
+  logic [Lanes-1:0][23:0] log_weight;
   logic unused_propose_valid, unused_weigh_valid;
   mote_imh #(
-      .Dims(2), .ObsWidth(58), .DrawWords(2), .ProposeLatency(6), .WeighLatency(5)
+      .Lanes(Lanes), .Parents(Parents), .Dims(2), .ObsWidth(58), .DrawWords(2), .ProposeLatency(6), .WeighLatency(5)
   ) u_imh (
       .clk_i, .rst_ni, .start_i, .n_i, .draws_i, .burn_in_i, .steps_i, .chain_mean_i, .busy_o,
       .obs_valid_i, .obs_ready_o, .obs_i,
@@ -40,11 +44,13 @@ module imh_growth (
       .weigh_valid_o(unused_weigh_valid), .weigh_state_o(to_weigh), .weigh_log_i(log_weight),
       .kept_valid_o, .kept_slot_o, .kept_state_o,
       .est_valid_o, .est_ready_i, .est_last_o, .est_mean_o, .est_sum_o, .est_scale_o, .est_accepted_o);
-  for (genvar d = 0; d < 2; d++) begin : gen_propose
-    growth_propose u_propose (
-        .clk_i, .first_i(t == 16'd1), .cosine_i($signed(observed[57:40])), .state_i($signed(parent[d])),
-        .word_i(words[d]), .state_o(proposed[d]));
+  for (genvar l = 0; l < Lanes; l++) begin : gen_lane
+    for (genvar d = 0; d < 2; d++) begin : gen_propose
+      growth_propose u_propose (
+          .clk_i, .first_i(t == 16'd1), .cosine_i($signed(observed[57:40])), .state_i($signed(parent[l][d])),
+          .word_i(words[l][d]), .state_o(proposed[l][d]));
+    end
+    growth_weigh u_weigh (
+        .clk_i, .observed_i(observed[39:0]), .state_i(to_weigh[l]), .log_weight_o(log_weight[l]));
   end
-  growth_weigh u_weigh (
-      .clk_i, .observed_i(observed[39:0]), .state_i(to_weigh), .log_weight_o(log_weight));
 endmodule

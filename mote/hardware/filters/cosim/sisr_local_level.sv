@@ -1,5 +1,8 @@
 // The bootstrap filter of local_level_propose.sv, for co-simulation.
-module sisr_local_level (
+module sisr_local_level #(
+    parameter int unsigned Lanes = 1,
+    localparam int unsigned SlotWidth = 10 - $clog2(Lanes)
+) (
     input  logic               clk_i,
     input  logic               rst_ni,
     input  logic               start_i,
@@ -10,8 +13,8 @@ module sisr_local_level (
     output logic               obs_ready_o,
     input  logic        [17:0] obs_i,
     output logic               kept_valid_o,
-    output logic        [9:0]  kept_slot_o,
-    output logic        [17:0] kept_state_o,
+    output logic        [SlotWidth-1:0] kept_slot_o,
+    output logic        [Lanes-1:0][17:0] kept_state_o,
     output logic               est_valid_o,
     input  logic               est_ready_i,
     output logic               est_last_o,
@@ -20,12 +23,13 @@ module sisr_local_level (
     output logic signed [11:0] est_scale_o
 );
   logic [15:0] t;
-  logic signed [17:0] observed, parent, proposed, to_weigh;
-  logic [1:0][31:0] words;
-  logic signed [23:0] log_weight;
+  logic signed [17:0] observed;
+  logic [Lanes-1:0][17:0] parent, proposed, to_weigh;
+  logic [Lanes-1:0][1:0][31:0] words;
+  logic [Lanes-1:0][23:0] log_weight;
   logic unused_propose_valid, unused_weigh_valid;
   mote_sisr #(
-      .Dims(1), .ObsWidth(18), .DrawWords(2), .ProposeLatency(4), .WeighLatency(4)
+      .Lanes(Lanes), .Dims(1), .ObsWidth(18), .DrawWords(2), .ProposeLatency(4), .WeighLatency(4)
   ) u_sisr (
       .clk_i, .rst_ni, .start_i, .n_i, .steps_i, .busy_o,
       .obs_valid_i, .obs_ready_o, .obs_i,
@@ -35,8 +39,10 @@ module sisr_local_level (
       .weigh_valid_o(unused_weigh_valid), .weigh_state_o(to_weigh), .weigh_log_i(log_weight),
       .kept_valid_o, .kept_slot_o, .kept_state_o,
       .est_valid_o, .est_ready_i, .est_last_o, .est_mean_o, .est_sum_o, .est_scale_o);
-  local_level_propose u_propose (
-      .clk_i, .first_i(t == 16'd1), .state_i(parent), .words_i(words), .state_o(proposed));
-  local_level_weigh u_weigh (
-      .clk_i, .observed_i(observed), .state_i(to_weigh), .log_weight_o(log_weight));
+  for (genvar l = 0; l < Lanes; l++) begin : gen_lane
+    local_level_propose u_propose (
+        .clk_i, .first_i(t == 16'd1), .state_i($signed(parent[l])), .words_i(words[l]), .state_o(proposed[l]));
+    local_level_weigh u_weigh (
+        .clk_i, .observed_i(observed), .state_i($signed(to_weigh[l])), .log_weight_o(log_weight[l]));
+  end
 endmodule

@@ -1,17 +1,19 @@
-// What a step says of the state: sums over weighted values, the mean by division, and a stream that carries both out.
+// What a step says of the state: sums over rows of Lanes weighted values, the mean by division, and a stream that carries
+// both out.
 //
 //   sum = sum_j w_j,   mean = (sum_j v_j x_j) / den,   den = sum, or count_i 2^16 for equal values (equal_i)
 //
-// Sums follow a rising scale: before a term comes in, the sum so far goes down by 8 rise bits (floor).
+// Sums follow a rising scale: before a row comes in, the sum so far goes down by 8 rise bits (floor).
 //
 // formats  weights: unsigned; values: Dims signed words; mean_o: signed, Extra fraction bits more than the values;
 //          evidence of a step = sum_o 2^(8 scale_o - Width) / proposals
 // range    |sum v x| <= 2^(ValueWidth - 1) sum v, SumWidth bits hold 2^At weights: nothing overflows
-// timing   sums: one term a cycle; 4 cycles from done_i to taking the sums, then 1 + Dims (ValueWidth + Extra + 1) to
+// timing   sums: one row a cycle; 4 cycles (5 with several lanes) from done_i to taking the sums, then 1 + Dims (ValueWidth + Extra + 1) to
 //          divide. Sums must not begin anew before they are taken: the filter begins a step only when the one before
 //          the last has left, see pending_o
 // golden   mote/hardware/filters/estimate.hpp
 module mote_estimate #(
+    parameter int unsigned Lanes      = 1,
     parameter int unsigned Dims       = 1,
     parameter int unsigned ValueWidth = 18,
     parameter int unsigned Width      = 24,
@@ -27,15 +29,15 @@ module mote_estimate #(
     input  logic                                  weight_valid_i,
     input  logic                                  weight_first_i,
     input  logic        [2:0]                     weight_rise_i,
-    input  logic        [Width-1:0]               weight_i,
+    input  logic        [Lanes-1:0][Width-1:0]    weight_i,
     input  logic signed [ScaleWidth-1:0]          scale_i,
     output logic        [SumWidth-1:0]            sum_so_far_o,
     // values, each with the weight it goes by
     input  logic                                  value_valid_i,
     input  logic                                  value_first_i,
     input  logic        [2:0]                     value_rise_i,
-    input  logic        [Width-1:0]               value_weight_i,
-    input  logic        [Dims-1:0][ValueWidth-1:0] value_i,
+    input  logic        [Lanes-1:0][Width-1:0]    value_weight_i,
+    input  logic        [Lanes-1:0][Dims-1:0][ValueWidth-1:0] value_i,
     // end of a step
     input  logic                                  done_i,
     input  logic                                  last_i,
@@ -57,60 +59,76 @@ module mote_estimate #(
   localparam int unsigned CountWidth = $clog2(Bits + 1);
   typedef logic signed [TotalWidth-1:0] total_t;
 
+  localparam int unsigned Tree = Lanes > 1 ? 1 : 0;  // stages that add up a row
+  localparam int unsigned Wait = 3 + Tree;
+
   // ---- sums
-  logic [SumWidth-1:0] sum_q;
-  logic signed [ScaleWidth-1:0] scale_q;
+  logic [SumWidth-1:0] sum_q, row_d, row;
+  logic signed [ScaleWidth-1:0] scale_q, row_scale;
+  logic row_valid, row_first;
+  logic [2:0] row_rise;
+  always_comb begin
+    row_d = '0;
+    for (int l = 0; l < Lanes; l++) row_d += SumWidth'(weight_i[l]);
+  end
+  mote_valid #(.Depth(Tree)) u_row_valid (.clk_i, .rst_ni, .valid_i(weight_valid_i), .valid_o(row_valid));
+  mote_delay #(.Width(SumWidth + ScaleWidth + 4), .Depth(Tree)) u_row (
+      .clk_i, .d_i({row_d, scale_i, weight_first_i, weight_rise_i}), .d_o({row, row_scale, row_first, row_rise}));
   always_ff @(posedge clk_i) begin
-    if (weight_valid_i) begin
-      sum_q <= (weight_first_i ? '0 : sum_q >> {weight_rise_i, 3'b0}) + SumWidth'(weight_i);
-      scale_q <= scale_i;
+    if (row_valid) begin
+      sum_q <= (row_first ? '0 : sum_q >> {row_rise, 3'b0}) + row;
+      scale_q <= row_scale;
     end
   end
   assign sum_so_far_o = sum_q;
 
-  logic valid1_q, valid2_q, valid3_q, first1_q, first2_q, first3_q;
-  logic [2:0] rise1_q, rise2_q, rise3_q;
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) {valid1_q, valid2_q, valid3_q} <= '0;
-    else {valid1_q, valid2_q, valid3_q} <= {value_valid_i, valid1_q, valid2_q};
-  end
-  always_ff @(posedge clk_i) begin
-    {first1_q, first2_q, first3_q} <= {value_first_i, first1_q, first2_q};
-    {rise1_q, rise2_q, rise3_q} <= {value_rise_i, rise1_q, rise2_q};
-  end
+  logic value_valid, value_first;
+  logic [2:0] value_rise;
+  mote_valid #(.Depth(Wait)) u_value_valid (.clk_i, .rst_ni, .valid_i(value_valid_i), .valid_o(value_valid));
+  mote_delay #(.Width(4), .Depth(Wait)) u_value (
+      .clk_i, .d_i({value_first_i, value_rise_i}), .d_o({value_first, value_rise}));
   total_t total[Dims];
   for (genvar d = 0; d < Dims; d++) begin : gen_total
-    logic signed [Width:0] weight_q;
-    logic signed [ValueWidth-1:0] value_q;
-    logic signed [Width+ValueWidth:0] product_q, product2_q;
-    total_t total_q, lowered;
-    assign lowered = total_q >>> {rise3_q, 3'b0};
-    always_ff @(posedge clk_i) begin
-      weight_q   <= $signed({1'b0, value_weight_i});
-      value_q    <= $signed(value_i[d]);
-      product_q  <= weight_q * value_q;
-      product2_q <= product_q;
-      if (valid3_q) total_q <= (first3_q ? total_t'(0) : lowered) + total_t'(product2_q);
+    logic signed [Lanes-1:0][Width+ValueWidth:0] products;
+    total_t total_q, lowered, terms_d, terms;
+    for (genvar l = 0; l < Lanes; l++) begin : gen_lane
+      logic signed [Width:0] weight_q;
+      logic signed [ValueWidth-1:0] value_q;
+      logic signed [Width+ValueWidth:0] product_q, product2_q;
+      always_ff @(posedge clk_i) begin
+        weight_q   <= $signed({1'b0, value_weight_i[l]});
+        value_q    <= $signed(value_i[l][d]);
+        product_q  <= weight_q * value_q;
+        product2_q <= product_q;
+      end
+      assign products[l] = product2_q;
     end
+    always_comb begin
+      terms_d = '0;
+      for (int l = 0; l < Lanes; l++) terms_d += total_t'($signed(products[l]));
+    end
+    mote_delay #(.Width(TotalWidth), .Depth(Tree)) u_terms (.clk_i, .d_i(terms_d), .d_o(terms));
+    assign lowered = total_q >>> {value_rise, 3'b0};
+    always_ff @(posedge clk_i) if (value_valid) total_q <= (value_first ? total_t'(0) : lowered) + terms;
     assign total[d] = total_q;
   end
 
   // ---- the end of a step, when the last value is in
-  logic [2:0] done_q, last_q;
+  logic [Wait-1:0] done_q, last_q;
   logic pending_q, pending_last_q, take;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       done_q <= '0;
       pending_q <= 1'b0;
     end else begin
-      done_q <= {done_q[1:0], done_i};
-      if (done_q[2]) pending_q <= 1'b1;
+      done_q <= {done_q[Wait-2:0], done_i};
+      if (done_q[Wait-1]) pending_q <= 1'b1;
       else if (take) pending_q <= 1'b0;
     end
   end
   always_ff @(posedge clk_i) begin
-    last_q <= {last_q[1:0], last_i};
-    if (done_q[2]) pending_last_q <= last_q[2];
+    last_q <= {last_q[Wait-2:0], last_i};
+    if (done_q[Wait-1]) pending_last_q <= last_q[Wait-1];
   end
   assign pending_o = pending_q;
 

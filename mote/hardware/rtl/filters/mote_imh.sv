@@ -1,23 +1,29 @@
-// The filter without resampling, one chain: independent Metropolis-Hastings over proposals from the mixture of parents.
+// The filter without resampling: independent Metropolis-Hastings over proposals from the mixture of parents, by one chain
+// or by Lanes copies of it in lockstep.
 //
-//   for j = 0 .. Q + N_b - 1:   i ~ U{0 .. N - 1},  x' ~ p(. | x_i),  lw' = log2 p(y | x')
+//   for j = 0 .. Q/Lanes + N_b - 1, in every lane:   i ~ U{parents},  x' ~ p(. | x_i),  lw' = log2 p(y | x')
 //   accept x' after x   iff   j = 0  or  lw <= lw' - log2 u
-//   keeps the last N states of the chain; mean over all proposals by weight, or over the kept states (chain_mean_i)
+//   keeps the last N/Lanes states of each chain; mean over all proposals by weight, or over the kept (chain_mean_i)
 //
-// The arithmetic of a model is outside, pipelines without stalls: propose (state_i, words -> state, ProposeLatency
-// cycles) and weigh (state -> log weight, WeighLatency cycles). t_o and obs_o stand from 4 cycles before the first
-// state of a step reaches propose until its last leaves weigh. At t = 1 the parent's state is undefined: propose draws
-// it from the prior.
+// Parents says whose states a lane's parents are: 0 its own chain's, 1 all chains', in a common turn (banked), 2 all
+// chains', each by itself (shared: a copy of the set for every lane); see mote_parents.
+// The arithmetic of a model is outside, pipelines without stalls, one a lane: propose (state_i, words -> state,
+// ProposeLatency cycles) and weigh (state -> log weight, WeighLatency cycles). t_o and obs_o stand from 4 cycles before
+// the first state of a step reaches propose until its last leaves weigh. At t = 1 the parent's state is undefined: propose
+// draws it from the prior.
 //
 // formats  states: Dims signed words of ValueWidth bits; log weights: signed, octaves, 10 fraction bits
-// range    1 <= n_i <= Most; n_i <= draws_i; draws_i + burn_in_i <= 2^At; Most <= 2^At. Registers are read at start_i
-// timing   a step takes (N_b + Q - 1) + K_p + K_w + 1 cycles, exactly (IMH-HW 5.3 with T_p = T_w = T_D = 1):
+// range    Lanes a power of two, n_i and draws_i multiples of it; Lanes <= n_i <= Most; n_i <= draws_i;
+//          draws_i + Lanes burn_in_i <= 2^At; Most <= 2^At. Registers are read at start_i
+// timing   a step takes (N_b + Q/Lanes - 1) + K_p + K_w + 1 cycles, exactly (IMH-HW 5.3 with T_p = T_w = T_D = 1):
 //          K_p = 4 + ProposeLatency, K_w = WeighLatency + 1; the estimate follows 9 + Dims (ValueWidth + Extra + 1)
-//          cycles behind the last decision. It waits for an observation, and for the estimate of the step before the
-//          last to be taken. ProposeLatency + WeighLatency >= 6
+//          cycles (one more with several lanes) behind the last decision. It waits for an observation, and for the
+//          estimate of the step before the last to be taken. ProposeLatency + WeighLatency >= 6
 // golden   mote/hardware/filters/imh.hpp
-// source   IMH-HW fig. 2 and (16) - (17)
+// source   IMH-HW figs. 2 and 3, (16) - (17)
 module mote_imh #(
+    parameter int unsigned Lanes          = 1,
+    parameter int unsigned Parents        = 1,
     parameter int unsigned Dims           = 1,
     parameter int unsigned ValueWidth     = 18,
     parameter int unsigned ObsWidth       = 32,
@@ -37,7 +43,7 @@ module mote_imh #(
     localparam int unsigned SumWidth   = WeightWidth + At,
     localparam int unsigned MeanWidth  = ValueWidth + Extra + 1,
     localparam int unsigned StateWidth = Dims * ValueWidth,
-    localparam int unsigned SlotWidth  = $clog2(Most)
+    localparam int unsigned SlotWidth  = Most > Lanes ? $clog2(Most / Lanes) : 1
 ) (
     input  logic                                   clk_i,
     input  logic                                   rst_ni,
@@ -57,16 +63,16 @@ module mote_imh #(
     output logic        [15:0]                     t_o,
     output logic        [ObsWidth-1:0]             obs_o,
     output logic                                   propose_valid_o,
-    output logic        [StateWidth-1:0]           propose_state_o,
-    output logic        [DrawWords-1:0][31:0]      propose_words_o,
-    input  logic        [StateWidth-1:0]           propose_state_i,
+    output logic [Lanes-1:0][StateWidth-1:0]       propose_state_o,
+    output logic [Lanes-1:0][DrawWords-1:0][31:0] propose_words_o,
+    input  logic [Lanes-1:0][StateWidth-1:0]       propose_state_i,
     output logic                                   weigh_valid_o,
-    output logic        [StateWidth-1:0]           weigh_state_o,
-    input  logic signed [LogWidth-1:0]             weigh_log_i,
-    // the set, as it is written
+    output logic [Lanes-1:0][StateWidth-1:0]       weigh_state_o,
+    input  logic [Lanes-1:0][LogWidth-1:0]         weigh_log_i,
+    // the set, as it is written: slots of each lane
     output logic                                   kept_valid_o,
     output logic        [SlotWidth-1:0]            kept_slot_o,
-    output logic        [StateWidth-1:0]           kept_state_o,
+    output logic [Lanes-1:0][StateWidth-1:0]       kept_state_o,
     // estimates, AXI4-Stream
     output logic                                   est_valid_o,
     input  logic                                   est_ready_i,
@@ -79,168 +85,130 @@ module mote_imh #(
   localparam int unsigned ModelLatency = ProposeLatency + WeighLatency;
   typedef logic [At:0] count_t;
 
-  // ---- what a run is
-  count_t n_q, total_q, drop_q;
+  // ---- what a run is, of a lane
+  localparam int unsigned LaneBits = $clog2(Lanes);
+  localparam int unsigned Streams = 2 + DrawWords;  // of a lane: parents, acceptance, draws
+  count_t n_q, total_q, drop_q, per_lane_n, per_lane_draws;
+  assign per_lane_n = n_i >> LaneBits;
+  assign per_lane_draws = draws_i >> LaneBits;
   logic equal_q;
-  logic [15:0] left_q;
+  logic starts_run;
   always_ff @(posedge clk_i) begin
-    if (start_i && !busy_o) begin
-      n_q     <= n_i;
-      total_q <= draws_i + burn_in_i;
-      drop_q  <= draws_i + burn_in_i - n_i;
+    if (starts_run) begin
+      n_q     <= per_lane_n;
+      total_q <= per_lane_draws + burn_in_i;
+      drop_q  <= per_lane_draws + burn_in_i - per_lane_n;
       equal_q <= chain_mean_i;
     end
   end
 
-  // ---- steps: each begins when the one before has decided all, with an observation at hand
-  logic next_valid_q, begins, issues_q, free, decided_last, idle_q;
-  logic [ObsWidth-1:0] next_obs_q;
-  logic [1:0] out_q;
+  // ---- steps: each begins when the one before has decided all
+  logic begins, issues_q, decided_last, unused_none_left;
   count_t issue_q;
-  logic est_taken;
-  assign est_taken = est_valid_o && est_ready_i;
-  assign free = idle_q || decided_last;
-  assign begins = free && left_q != '0 && next_valid_q && !out_q[1];
-  assign obs_ready_o = !next_valid_q;
+  mote_steps #(.ObsWidth(ObsWidth)) u_steps (
+      .clk_i, .rst_ni, .start_i, .steps_i, .busy_o, .starts_o(starts_run),
+      .obs_valid_i, .obs_ready_o, .obs_i,
+      .free_i(decided_last), .begins_o(begins), .none_left_o(unused_none_left), .t_o, .obs_o,
+      .est_taken_i(est_valid_o && est_ready_i), .est_last_i(est_last_o));
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      busy_o       <= 1'b0;
-      left_q       <= '0;
-      next_valid_q <= 1'b0;
-      issues_q     <= 1'b0;
-      idle_q       <= 1'b1;
-      out_q        <= '0;
-      t_o          <= '0;
-    end else begin
-      if (start_i && !busy_o) begin
-        busy_o <= steps_i != '0;
-        left_q <= steps_i;
-        t_o    <= '0;
-      end else if (est_taken && est_last_o) begin
-        busy_o <= 1'b0;
-      end
-      if (obs_valid_i && obs_ready_o) next_valid_q <= 1'b1;
-      else if (begins) next_valid_q <= 1'b0;
-      if (begins) begin
-        left_q   <= left_q - 16'd1;
-        t_o      <= t_o + 16'd1;
-        issues_q <= 1'b1;
-      end else if (issue_q + count_t'(1) == total_q) begin
-        issues_q <= 1'b0;
-      end
-      if (begins) idle_q <= 1'b0;
-      else if (decided_last) idle_q <= 1'b1;
-      out_q <= out_q + 2'(begins) - 2'(est_taken);
-    end
+    if (!rst_ni) issues_q <= 1'b0;
+    else if (begins) issues_q <= 1'b1;
+    else if (issue_q + count_t'(1) == total_q) issues_q <= 1'b0;
   end
   always_ff @(posedge clk_i) begin
-    if (obs_valid_i && obs_ready_o) next_obs_q <= obs_i;
-    if (begins) obs_o <= next_obs_q;
     if (begins) issue_q <= '0;
     else if (issues_q) issue_q <= issue_q + count_t'(1);
   end
 
-  // ---- parents: slot = floor(u N), u of 24 bits
-  logic [31:0] parent_word;
-  mote_words #(.Seed(Seed), .Stream(Stream)) u_parent_words (
-      .clk_i, .rst_ni, .advance_i(issues_q), .word_o(parent_word));
-  logic [23:0] uniform_q;
-  logic [SlotWidth-1:0] parent_q;
-  logic unused_word;
-  assign unused_word = ^parent_word[7:0];
-  always_ff @(posedge clk_i) begin
-    uniform_q <= parent_word[31:8];
-    parent_q  <= SlotWidth'((At + 25)'(uniform_q) * (At + 25)'(n_q) >> 24);
-  end
-  logic valid4, valid_log;
+  // ---- parents
+  logic valid4, valid_log, bank_q;
   mote_valid #(.Depth(4)) u_valid4 (.clk_i, .rst_ni, .valid_i(issues_q), .valid_o(valid4));
-  logic bank_q;
-  logic [StateWidth-1:0] parent_state;
-  mote_ram #(.Width(StateWidth), .Words(2 << SlotWidth)) u_set (
-      .clk_i,
+  mote_parents #(
+      .Lanes(Lanes), .Choice(Parents), .Width(StateWidth), .CountWidth(At + 1), .SlotWidth(SlotWidth), .Seed(Seed),
+      .Stream(Stream), .StreamStep(Streams)
+  ) u_parents (
+      .clk_i, .rst_ni,
+      .advance_i(issues_q),
+      .n_i(n_q),
+      .bank_i(bank_q),
+      .state_o(propose_state_o),
       .write_i(kept_valid_o),
-      .write_at_i({~bank_q, kept_slot_o}),
-      .write_word_i(kept_state_o),
-      .read_at_i({bank_q, parent_q}),
-      .read_word_o(parent_state));
+      .write_slot_i(kept_slot_o),
+      .write_state_i(kept_state_o));
 
-  // ---- the model's arithmetic
+  // ---- the model's arithmetic, and the chains, whose words begin 5 cycles before the log weight is there
+  logic weighed_valid, decides_q, starts, keeps;
+  logic [Lanes-1:0] accepts;
+  logic [Lanes-1:0][StateWidth-1:0] decided_state, current;
   assign propose_valid_o = valid4;
-  assign propose_state_o = parent_state;
-  for (genvar w = 0; w < DrawWords; w++) begin : gen_words
-    mote_words #(.Seed(Seed), .Stream(Stream + 2 + w)) u_words (
-        .clk_i, .rst_ni, .advance_i(valid4), .word_o(propose_words_o[w]));
-  end
+  assign weigh_state_o = propose_state_i;
   mote_valid #(.Depth(ProposeLatency)) u_weigh_valid (
       .clk_i, .rst_ni, .valid_i(valid4), .valid_o(weigh_valid_o));
-  assign weigh_state_o = propose_state_i;
-  logic weighed_valid;
   mote_valid #(.Depth(WeighLatency)) u_weighed_valid (
       .clk_i, .rst_ni, .valid_i(weigh_valid_o), .valid_o(weighed_valid));
-  logic [StateWidth-1:0] decided_state, inferred_state;
-  mote_delay #(.Width(StateWidth), .Depth(WeighLatency + 1)) u_decided_state (
-      .clk_i, .d_i(propose_state_i), .d_o(decided_state));
-  mote_delay #(.Width(StateWidth), .Depth(4)) u_inferred_state (
-      .clk_i, .d_i(decided_state), .d_o(inferred_state));
-
-  // ---- the chain; its words begin 5 cycles before the log weight is there
   mote_valid #(.Depth(ModelLatency - 1)) u_log_valid (
       .clk_i, .rst_ni, .valid_i(issues_q), .valid_o(valid_log));
-  logic [31:0] accept_word;
-  logic [15:0] drop;
-  mote_words #(.Seed(Seed), .Stream(Stream + 1)) u_accept_words (
-      .clk_i, .rst_ni, .advance_i(valid_log), .word_o(accept_word));
-  mote_log_uniform #(.Table(Log2Table)) u_log_uniform (.clk_i, .word_i(accept_word), .drop_o(drop));
+  for (genvar l = 0; l < Lanes; l++) begin : gen_lane
+    for (genvar w = 0; w < DrawWords; w++) begin : gen_words
+      mote_words #(.Seed(Seed), .Stream(Stream + Streams * l + 2 + w)) u_words (
+          .clk_i, .rst_ni, .advance_i(valid4), .word_o(propose_words_o[l][w]));
+    end
+    mote_delay #(.Width(StateWidth), .Depth(WeighLatency + 1)) u_decided_state (
+        .clk_i, .d_i(propose_state_i[l]), .d_o(decided_state[l]));
+    mote_chain #(
+        .LogWidth(LogWidth), .StateWidth(StateWidth), .Seed(Seed), .Stream(Stream + Streams * l + 1),
+        .Log2Table(Log2Table)
+    ) u_chain (
+        .clk_i, .rst_ni,
+        .word_i(valid_log),
+        .log_weight_i($signed(weigh_log_i[l])),
+        .decides_i(decides_q),
+        .starts_i(starts),
+        .state_i(decided_state[l]),
+        .accepts_o(accepts[l]),
+        .state_o(kept_state_o[l]),
+        .current_o(current[l]));
+  end
 
-  typedef logic signed [LogWidth:0] bound_t;
-  logic decides_q, accepts, starts, keeps;
-  bound_t bound_q;
-  logic signed [LogWidth-1:0] log_q, current_log_q;
-  logic [StateWidth-1:0] current_q;
-  count_t decided_q, accepted_q;
+  count_t decided_q, accepted_q, moves;
+  always_comb begin
+    moves = '0;
+    for (int l = 0; l < Lanes; l++) moves += count_t'(accepts[l]);
+  end
   logic [SlotWidth-1:0] slot_q;
+  logic kept_q, kept_first_q;
   assign starts = decided_q == '0;
-  assign accepts = starts || bound_t'(current_log_q) <= bound_q;
   assign keeps = decided_q >= drop_q;
   assign decided_last = decides_q && decided_q + count_t'(1) == total_q;
-  always_ff @(posedge clk_i) begin
-    bound_q <= bound_t'(weigh_log_i) + bound_t'({1'b0, drop});
-    log_q   <= weigh_log_i;
-    if (decides_q && accepts) begin
-      current_log_q <= log_q;
-      current_q     <= decided_state;
-    end
-    if (begins) slot_q <= '0;
-    else if (kept_valid_o) slot_q <= slot_q + SlotWidth'(1);
-  end
-  logic kept_q, kept_first_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       decides_q <= 1'b0;
       kept_q    <= 1'b0;
       bank_q    <= 1'b0;
+      decided_q <= '0;
     end else begin
       decides_q <= weighed_valid;
-      kept_q    <= decides_q && keeps;
+      kept_q    <= kept_valid_o;
       if (decided_last) bank_q <= ~bank_q;
+      if (decides_q) decided_q <= decided_last ? '0 : decided_q + count_t'(1);
     end
   end
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) decided_q <= '0;
-    else if (decides_q) decided_q <= decided_last ? '0 : decided_q + count_t'(1);
-  end
   always_ff @(posedge clk_i) begin
-    if (decides_q) accepted_q <= starts ? '0 : accepted_q + count_t'(accepts);
+    if (begins) slot_q <= '0;
+    else if (kept_valid_o) slot_q <= slot_q + SlotWidth'(1);
+    if (decides_q) accepted_q <= starts ? '0 : accepted_q + moves;
     kept_first_q <= decided_q == drop_q;
   end
   assign kept_valid_o = decides_q && keeps;
   assign kept_slot_o = slot_q;
-  assign kept_state_o = accepts ? decided_state : current_q;
 
   // ---- inference
   logic weight_valid, weight_first, weighed_first_q;
   logic [2:0] weight_rise;
-  logic [WeightWidth-1:0] weight;
+  logic [Lanes-1:0][WeightWidth-1:0] weight;
+  logic [Lanes-1:0][StateWidth-1:0] inferred_state;
+  mote_delay #(.Width(Lanes * StateWidth), .Depth(4)) u_inferred_state (
+      .clk_i, .d_i(decided_state), .d_o(inferred_state));
   logic signed [ScaleWidth-1:0] scale, unused_scale;
   count_t weighed_q, summed_q;
   logic summed_last;
@@ -255,7 +223,7 @@ module mote_imh #(
   end
   assign weighed_first_q = weighed_q == '0;
   assign summed_last = weight_valid && summed_q + count_t'(1) == total_q;
-  mote_weight #(.LogWidth(LogWidth), .Width(WeightWidth), .Table(Exp2Table)) u_weight (
+  mote_weight #(.Lanes(Lanes), .LogWidth(LogWidth), .Width(WeightWidth), .Table(Exp2Table)) u_weight (
       .clk_i, .rst_ni,
       .valid_i(weighed_valid),
       .first_i(weighed_first_q),
@@ -270,13 +238,13 @@ module mote_imh #(
   logic [15:0] steps_left_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) steps_left_q <= '0;
-    else if (start_i && !busy_o) steps_left_q <= steps_i;
+    else if (starts_run) steps_left_q <= steps_i;
     else if (summed_last) steps_left_q <= steps_left_q - 16'd1;
   end
   logic unused_pending;
   logic [SumWidth-1:0] unused_sum;
   mote_estimate #(
-      .Dims(Dims), .ValueWidth(ValueWidth), .Width(WeightWidth), .At(At), .Extra(Extra), .ScaleWidth(ScaleWidth)
+      .Lanes(Lanes), .Dims(Dims), .ValueWidth(ValueWidth), .Width(WeightWidth), .At(At), .Extra(Extra), .ScaleWidth(ScaleWidth)
   ) u_estimate (
       .clk_i, .rst_ni,
       .weight_valid_i(weight_valid),
@@ -288,12 +256,12 @@ module mote_imh #(
       .value_valid_i(equal_q ? kept_q : weight_valid),
       .value_first_i(equal_q ? kept_first_q : weight_first),
       .value_rise_i(equal_q ? 3'd0 : weight_rise),
-      .value_weight_i(equal_q ? WeightWidth'(1) << 16 : weight),
-      .value_i(equal_q ? current_q : inferred_state),
+      .value_weight_i(equal_q ? {Lanes{WeightWidth'(1) << 16}} : weight),
+      .value_i(equal_q ? current : inferred_state),
       .done_i(summed_last),
       .last_i(steps_left_q == 16'd1),
       .equal_i(equal_q),
-      .count_i(n_q),
+      .count_i(n_q << LaneBits),
       .accepted_i(accepted_q),
       .pending_o(unused_pending),
       .valid_o(est_valid_o),

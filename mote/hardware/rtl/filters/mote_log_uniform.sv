@@ -6,7 +6,7 @@
 // formats  drop_o: unsigned, 6 integer and 10 fraction bits; below 33, so it cannot overflow. Word 0 counts as 2^-1
 // error    below 2^-8 octave
 // timing   latency 5, initiation interval 1
-// golden   mote/hardware/filters/log_uniform.hpp
+// golden   log_drop in mote/hardware/filters/weights.hpp
 module mote_log_uniform #(
     parameter Table = "log2.hex"
 ) (

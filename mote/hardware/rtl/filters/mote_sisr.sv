@@ -1,19 +1,23 @@
-// The bootstrap filter, one lane, merged and overlapped: propagate, weigh and sum in one pass; the resampling of a step
-// walks beside the propagation of the next.
+// The bootstrap filter, merged and overlapped, by one lane or several: propagate, weigh and sum in one pass; the resampling
+// of a step walks beside the propagation of the next.
 //
-//   x' ~ p(. | x_a(j)),  lw = log2 p(y | x'),  a(j) by systematic resampling (mote_systematic), every step
+//   x' ~ p(. | x_a(j)),  lw = log2 p(y | x'),  a(j) by systematic resampling, every step
 //   mean = sum w x' / sum w, before resampling
 //
+// One lane resamples by mote_systematic, several by mote_offspring and mote_children; lane l has the children Lanes k + l.
 // The arithmetic of a model is outside, as for mote_imh. t_o and obs_o stand from 3 cycles before the first state of a
 // step reaches propose until its last leaves weigh. At t = 1 the parent's state is undefined.
 //
 // formats  states: Dims signed words of ValueWidth bits; log weights: signed, octaves, 10 fraction bits
-// range    1 <= n_i <= 2^At, At >= 2. Registers are read at start_i
-// timing   a particle a cycle, as long as the walk has parents; a step's first parents are there 15 cycles after its last
-//          state left weigh, or when its first row with children is reached. The golden model counts cycles exactly
+// range    Lanes 1, 2, 4 or 8; n_i a multiple of it, at most 2^At; At >= 2, with several lanes At >= 6 and
+//          n_i >= Lanes. Registers are read at start_i
+// timing   a particle a cycle and lane, as long as there are parents; a step's first are there 15 cycles (with several
+//          lanes 19 + log2 Lanes) after its last state left weigh, or when its first row with children is reached. The
+//          golden model counts cycles exactly
 // golden   mote/hardware/filters/sisr.hpp
 // source   FPGA (merged loops, dataflow); Kitagawa 1996
 module mote_sisr #(
+    parameter int unsigned Lanes          = 1,
     parameter int unsigned Dims           = 1,
     parameter int unsigned ValueWidth     = 18,
     parameter int unsigned ObsWidth       = 32,
@@ -30,7 +34,8 @@ module mote_sisr #(
     localparam int unsigned ScaleWidth = LogWidth - 12,
     localparam int unsigned SumWidth   = WeightWidth + At,
     localparam int unsigned MeanWidth  = ValueWidth + Extra + 1,
-    localparam int unsigned StateWidth = Dims * ValueWidth
+    localparam int unsigned StateWidth = Dims * ValueWidth,
+    localparam int unsigned SlotWidth  = At - $clog2(Lanes)
 ) (
     input  logic                                   clk_i,
     input  logic                                   rst_ni,
@@ -47,16 +52,16 @@ module mote_sisr #(
     output logic        [15:0]                     t_o,
     output logic        [ObsWidth-1:0]             obs_o,
     output logic                                   propose_valid_o,
-    output logic        [StateWidth-1:0]           propose_state_o,
-    output logic        [DrawWords-1:0][31:0]      propose_words_o,
-    input  logic        [StateWidth-1:0]           propose_state_i,
+    output logic [Lanes-1:0][StateWidth-1:0]       propose_state_o,
+    output logic [Lanes-1:0][DrawWords-1:0][31:0] propose_words_o,
+    input  logic [Lanes-1:0][StateWidth-1:0]       propose_state_i,
     output logic                                   weigh_valid_o,
-    output logic        [StateWidth-1:0]           weigh_state_o,
-    input  logic signed [LogWidth-1:0]             weigh_log_i,
-    // the set before resampling, as it is written
+    output logic [Lanes-1:0][StateWidth-1:0]       weigh_state_o,
+    input  logic [Lanes-1:0][LogWidth-1:0]         weigh_log_i,
+    // the set before resampling, as it is written: slots of each lane
     output logic                                   kept_valid_o,
-    output logic        [At-1:0]                   kept_slot_o,
-    output logic        [StateWidth-1:0]           kept_state_o,
+    output logic        [SlotWidth-1:0]            kept_slot_o,
+    output logic [Lanes-1:0][StateWidth-1:0]       kept_state_o,
     // estimates, AXI4-Stream
     output logic                                   est_valid_o,
     input  logic                                   est_ready_i,
@@ -67,89 +72,70 @@ module mote_sisr #(
 );
   typedef logic [At:0] count_t;
 
-  // ---- steps: each begins when the model has weighed the one before, with an observation at hand
-  count_t n_q, issued_q, weighed_q;
-  logic next_valid_q, begins, idle_q, weighed_valid, weighed_last, issues, first_q;
-  logic [ObsWidth-1:0] next_obs_q;
-  logic [1:0] out_q;
-  logic [15:0] left_q;
-  logic est_taken, parent_valid;
-  logic [At-1:0] parent;
-  assign est_taken = est_valid_o && est_ready_i;
-  assign begins = (idle_q || weighed_last) && left_q != '0 && next_valid_q && !out_q[1];
-  assign obs_ready_o = !next_valid_q;
+  // ---- steps: each begins when the model has weighed the one before; of a lane
+  localparam int unsigned LaneBits = $clog2(Lanes);
+  localparam int unsigned LaneWidth = Lanes > 1 ? LaneBits : 1;
+  count_t n_q, issued_q, weighed_q, per_lane_n;
+  logic starts, begins, weighed_valid, weighed_last, issues, first_q, parent_valid, unused_none_left;
+  logic [Lanes-1:0][At-1:0] parent;
+  mote_steps #(.ObsWidth(ObsWidth)) u_steps (
+      .clk_i, .rst_ni, .start_i, .steps_i, .busy_o, .starts_o(starts),
+      .obs_valid_i, .obs_ready_o, .obs_i,
+      .free_i(weighed_last), .begins_o(begins), .none_left_o(unused_none_left), .t_o, .obs_o,
+      .est_taken_i(est_valid_o && est_ready_i), .est_last_i(est_last_o));
+  assign per_lane_n = n_i >> LaneBits;
   assign issues = issued_q != n_q && (first_q || parent_valid);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      busy_o       <= 1'b0;
-      left_q       <= '0;
-      next_valid_q <= 1'b0;
-      idle_q       <= 1'b1;
-      out_q        <= '0;
-      t_o          <= '0;
-      n_q          <= '0;
-      issued_q     <= '0;
-      first_q      <= 1'b0;
-    end else begin
-      if (start_i && !busy_o) begin
-        busy_o   <= steps_i != '0;
-        left_q   <= steps_i;
-        t_o      <= '0;
-        n_q      <= n_i;
-        issued_q <= n_i;
-        first_q  <= 1'b1;
-      end else begin
-        if (est_taken && est_last_o) busy_o <= 1'b0;
-        if (begins) begin
-          left_q   <= left_q - 16'd1;
-          t_o      <= t_o + 16'd1;
-          first_q  <= t_o == '0;
-          issued_q <= '0;
-        end else if (issues) begin
-          issued_q <= issued_q + count_t'(1);
-        end
-      end
-      if (obs_valid_i && obs_ready_o) next_valid_q <= 1'b1;
-      else if (begins) next_valid_q <= 1'b0;
-      if (begins) idle_q <= 1'b0;
-      else if (weighed_last) idle_q <= 1'b1;
-      out_q <= out_q + 2'(begins) - 2'(est_taken);
+      n_q      <= '0;
+      issued_q <= '0;
+      first_q  <= 1'b0;
+    end else if (starts) begin
+      n_q      <= per_lane_n;
+      issued_q <= per_lane_n;
+      first_q  <= 1'b1;
+    end else if (begins) begin
+      first_q  <= t_o == '0;
+      issued_q <= '0;
+    end else if (issues) begin
+      issued_q <= issued_q + count_t'(1);
     end
-  end
-  always_ff @(posedge clk_i) begin
-    if (obs_valid_i && obs_ready_o) next_obs_q <= obs_i;
-    if (begins) obs_o <= next_obs_q;
   end
 
   // ---- particles
-  logic [At-1:0] parent_q, slot_q;
-  logic bank_q, read_bank_q;
-  logic [StateWidth-1:0] parent_state;
+  logic [SlotWidth-1:0] slot_q;
+  logic bank_q;
+  logic [Lanes-1:0][SlotWidth:0] parent_slot_q;
+  logic [Lanes-1:0][LaneWidth-1:0] parent_lane_q;
   always_ff @(posedge clk_i) begin
-    parent_q <= parent;
-    read_bank_q <= ~bank_q;
+    for (int l = 0; l < Lanes; l++) begin
+      parent_slot_q[l] <= {~bank_q, parent[l][At-1-:SlotWidth]};
+      parent_lane_q[l] <= Lanes > 1 ? parent[l][LaneWidth-1:0] : '0;
+    end
   end
-  mote_ram #(.Width(StateWidth), .Words(2 << At)) u_set (
+  mote_set #(.Lanes(Lanes), .Width(StateWidth), .SlotWidth(SlotWidth + 1)) u_set (
       .clk_i,
       .write_i(kept_valid_o),
-      .write_at_i({bank_q, slot_q}),
-      .write_word_i(kept_state_o),
-      .read_at_i({read_bank_q, parent_q}),
-      .read_word_o(parent_state));
+      .write_slot_i({bank_q, slot_q}),
+      .write_state_i(kept_state_o),
+      .read_slot_i(parent_slot_q),
+      .read_lane_i(parent_lane_q),
+      .read_state_o(propose_state_o));
 
   // ---- the model's arithmetic
   mote_valid #(.Depth(3)) u_propose_valid (.clk_i, .rst_ni, .valid_i(issues), .valid_o(propose_valid_o));
-  assign propose_state_o = parent_state;
-  for (genvar w = 0; w < DrawWords; w++) begin : gen_words
-    mote_words #(.Seed(Seed), .Stream(Stream + 1 + w)) u_words (
-        .clk_i, .rst_ni, .advance_i(propose_valid_o), .word_o(propose_words_o[w]));
+  for (genvar l = 0; l < Lanes; l++) begin : gen_lane
+    for (genvar w = 0; w < DrawWords; w++) begin : gen_words
+      mote_words #(.Seed(Seed), .Stream(Stream + 1 + DrawWords * l + w)) u_words (
+          .clk_i, .rst_ni, .advance_i(propose_valid_o), .word_o(propose_words_o[l][w]));
+    end
   end
   mote_valid #(.Depth(ProposeLatency)) u_weigh_valid (
       .clk_i, .rst_ni, .valid_i(propose_valid_o), .valid_o(weigh_valid_o));
   assign weigh_state_o = propose_state_i;
   mote_valid #(.Depth(WeighLatency)) u_weighed_valid (
       .clk_i, .rst_ni, .valid_i(weigh_valid_o), .valid_o(weighed_valid));
-  mote_delay #(.Width(StateWidth), .Depth(WeighLatency + 5)) u_state (
+  mote_delay #(.Width(Lanes * StateWidth), .Depth(WeighLatency + 5)) u_state (
       .clk_i, .d_i(propose_state_i), .d_o(kept_state_o));
   assign weighed_last = weighed_valid && weighed_q + count_t'(1) == n_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -160,9 +146,9 @@ module mote_sisr #(
   // ---- weights
   logic weight_first, kept_last;
   logic [2:0] weight_rise;
-  logic [WeightWidth-1:0] weight;
+  logic [Lanes-1:0][WeightWidth-1:0] weight;
   logic signed [ScaleWidth-1:0] scale, scale_early;
-  mote_weight #(.LogWidth(LogWidth), .Width(WeightWidth), .Table(Exp2Table)) u_weight (
+  mote_weight #(.Lanes(Lanes), .LogWidth(LogWidth), .Width(WeightWidth), .Table(Exp2Table)) u_weight (
       .clk_i, .rst_ni,
       .valid_i(weighed_valid),
       .first_i(weighed_q == '0),
@@ -174,45 +160,83 @@ module mote_sisr #(
       .scale_o(scale),
       .scale_early_o(scale_early));
   assign kept_slot_o = slot_q;
-  assign kept_last = kept_valid_o && {1'b0, slot_q} + count_t'(1) == n_q;
+  assign kept_last = kept_valid_o && count_t'(slot_q) + count_t'(1) == n_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       slot_q <= '0;
       bank_q <= 1'b0;
     end else if (kept_valid_o) begin
-      slot_q <= kept_last ? '0 : slot_q + At'(1);
+      slot_q <= kept_last ? '0 : slot_q + SlotWidth'(1);
       bank_q <= bank_q ^ kept_last;
     end
   end
 
   // ---- resampling
-  logic scale_known, total_valid_q;
+  logic total_valid;
   logic [SumWidth-1:0] total;
   logic [31:0] resample_word;
   logic unused_word;
   assign unused_word = ^resample_word[7:0];
-  mote_valid #(.Depth(2)) u_scale_known (.clk_i, .rst_ni, .valid_i(weighed_last), .valid_o(scale_known));
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) total_valid_q <= 1'b0;
-    else total_valid_q <= kept_last;
-  end
+  mote_valid #(.Depth(Lanes > 1 ? 2 : 1)) u_total_valid (.clk_i, .rst_ni, .valid_i(kept_last), .valid_o(total_valid));
   mote_words #(.Seed(Seed), .Stream(Stream)) u_resample_words (
-      .clk_i, .rst_ni, .advance_i(total_valid_q), .word_o(resample_word));
-  mote_systematic #(.At(At), .Width(WeightWidth), .ScaleWidth(ScaleWidth)) u_systematic (
-      .clk_i, .rst_ni,
-      .drop_i(start_i && !busy_o),
-      .n_i(n_q),
-      .write_i(kept_valid_o),
-      .weight_i(weight),
-      .scale_i(scale),
-      .scale_known_i(scale_known),
-      .last_scale_i(scale_early),
-      .total_valid_i(total_valid_q),
-      .total_i(total),
-      .uniform_i(resample_word[31:8]),
-      .valid_o(parent_valid),
-      .ready_i(issued_q != n_q && !first_q),
-      .parent_o(parent));
+      .clk_i, .rst_ni, .advance_i(total_valid), .word_o(resample_word));
+  logic takes;
+  assign takes = issued_q != n_q && !first_q;
+  if (Lanes == 1) begin : gen_walk
+    logic scale_known;
+    mote_valid #(.Depth(2)) u_scale_known (.clk_i, .rst_ni, .valid_i(weighed_last), .valid_o(scale_known));
+    mote_systematic #(.At(At), .Width(WeightWidth), .ScaleWidth(ScaleWidth)) u_systematic (
+        .clk_i, .rst_ni,
+        .drop_i(starts),
+        .n_i(n_q),
+        .write_i(kept_valid_o),
+        .weight_i(weight),
+        .scale_i(scale),
+        .scale_known_i(scale_known),
+        .last_scale_i(scale_early),
+        .total_valid_i(total_valid),
+        .total_i(total),
+        .uniform_i(resample_word[31:8]),
+        .valid_o(parent_valid),
+        .ready_i(takes),
+        .parent_o(parent));
+  end else begin : gen_rows
+    localparam int unsigned RowWidth = SlotWidth - 1;
+    logic row_valid, row_pop, unused_scale;
+    logic drops, drops_q;  // rows under way when a run ends come in until the next one's first weight
+    assign drops = starts || drops_q && !kept_valid_o;
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) drops_q <= 1'b0;
+      else drops_q <= drops;
+    end
+    logic [RowWidth-1:0] row;
+    logic [2*Lanes-1:0][At:0] ends;
+    assign unused_scale = ^scale_early;
+    mote_offspring #(.Lanes(Lanes), .At(At), .Width(WeightWidth), .ScaleWidth(ScaleWidth)) u_offspring (
+        .clk_i, .rst_ni,
+        .drop_i(drops),
+        .n_i(n_q),
+        .write_i(kept_valid_o),
+        .weight_i(weight),
+        .scale_i(scale),
+        .total_valid_i(total_valid),
+        .total_i(total),
+        .uniform_i(resample_word[31:8]),
+        .valid_o(row_valid),
+        .pop_i(row_pop),
+        .row_o(row),
+        .ends_o(ends));
+    mote_children #(.Lanes(Lanes), .At(At)) u_children (
+        .clk_i, .rst_ni,
+        .clear_i(drops || kept_last),
+        .row_valid_i(row_valid),
+        .row_pop_o(row_pop),
+        .row_i(row),
+        .ends_i(ends),
+        .valid_o(parent_valid),
+        .ready_i(takes),
+        .parent_o(parent));
+  end
 
   // ---- estimates
   logic [15:0] estimates_left_q;
@@ -220,11 +244,11 @@ module mote_sisr #(
   logic [At:0] unused_accepted;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) estimates_left_q <= '0;
-    else if (start_i && !busy_o) estimates_left_q <= steps_i;
+    else if (starts) estimates_left_q <= steps_i;
     else if (kept_last) estimates_left_q <= estimates_left_q - 16'd1;
   end
   mote_estimate #(
-      .Dims(Dims), .ValueWidth(ValueWidth), .Width(WeightWidth), .At(At), .Extra(Extra), .ScaleWidth(ScaleWidth)
+      .Lanes(Lanes), .Dims(Dims), .ValueWidth(ValueWidth), .Width(WeightWidth), .At(At), .Extra(Extra), .ScaleWidth(ScaleWidth)
   ) u_estimate (
       .clk_i, .rst_ni,
       .weight_valid_i(kept_valid_o),
@@ -241,7 +265,7 @@ module mote_sisr #(
       .done_i(kept_last),
       .last_i(estimates_left_q == 16'd1),
       .equal_i(1'b0),
-      .count_i(n_q),
+      .count_i(n_q << LaneBits),
       .accepted_i('0),
       .pending_o(unused_pending),
       .valid_o(est_valid_o),

@@ -9,15 +9,16 @@ module mote_valid #(
     input  logic valid_i,
     output logic valid_o
 );
-  logic [Depth:0] line;
-  assign line[0] = valid_i;
-  assign valid_o = line[Depth];
-  for (genvar i = 0; i < Depth; i++) begin : gen_line
-    logic valid_q;
+  if (Depth == 0) begin : gen_wire
+    logic unused_clock;
+    assign unused_clock = clk_i ^ rst_ni;
+    assign valid_o = valid_i;
+  end else begin : gen_line
+    logic [Depth-1:0] line_q;
     always_ff @(posedge clk_i or negedge rst_ni) begin
-      if (!rst_ni) valid_q <= 1'b0;
-      else valid_q <= line[i];
+      if (!rst_ni) line_q <= '0;
+      else line_q <= Depth'({line_q, valid_i});
     end
-    assign line[i+1] = valid_q;
+    assign valid_o = line_q[Depth-1];
   end
 endmodule

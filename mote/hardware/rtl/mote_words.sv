@@ -5,7 +5,7 @@
 // formats  32 bits, unsigned; period about 2^88
 // seeding  the three components are mixed from (Seed, Stream), so that streams are unrelated; reset returns to them
 // timing   word_o: a XOR of three registers; initiation interval 1
-// golden   mote/hardware/filters/words.hpp
+// golden   mote/hardware/words.hpp
 // source   L'Ecuyer 1996, Math. Comp. 65, p. 203
 module mote_words #(
     parameter logic [63:0] Seed   = 64'd1,

@@ -1,0 +1,47 @@
+// A chain of independent Metropolis-Hastings: decides on a proposal a cycle.
+//
+//   accepts_o  =  starts_i  or  lw <= lw' - log2 u      lw of the chain's state, lw' of the proposal, u uniform
+//   state_o    =  state_i where it accepts, else the chain's state
+//
+// formats  log weights: signed, octaves, 10 fraction bits
+// timing   word_i, then log_weight_i 5 cycles later, decides_i, starts_i and state_i a cycle after that; accepts_o and
+//          state_o in the same cycle, current_o in the next. Initiation interval 1
+// golden   mote/hardware/filters/imh.hpp
+// source   IMH-HW (16) - (17)
+module mote_chain #(
+    parameter int unsigned LogWidth   = 24,
+    parameter int unsigned StateWidth = 18,
+    parameter logic [63:0] Seed       = 64'd1,
+    parameter int unsigned Stream     = 1,
+    parameter Log2Table               = "log2.hex"
+) (
+    input  logic                       clk_i,
+    input  logic                       rst_ni,
+    input  logic                       word_i,
+    input  logic signed [LogWidth-1:0] log_weight_i,
+    input  logic                       decides_i,
+    input  logic                       starts_i,
+    input  logic [StateWidth-1:0]      state_i,
+    output logic                       accepts_o,
+    output logic [StateWidth-1:0]      state_o,
+    output logic [StateWidth-1:0]      current_o
+);
+  typedef logic signed [LogWidth:0] bound_t;
+  logic [31:0] word;
+  logic [15:0] drop;
+  mote_words #(.Seed(Seed), .Stream(Stream)) u_words (.clk_i, .rst_ni, .advance_i(word_i), .word_o(word));
+  mote_log_uniform #(.Table(Log2Table)) u_log_uniform (.clk_i, .word_i(word), .drop_o(drop));
+
+  bound_t bound_q;
+  logic signed [LogWidth-1:0] log_q, current_log_q;
+  assign accepts_o = starts_i || bound_t'(current_log_q) <= bound_q;
+  assign state_o = accepts_o ? state_i : current_o;
+  always_ff @(posedge clk_i) begin
+    bound_q <= bound_t'(log_weight_i) + bound_t'({1'b0, drop});
+    log_q   <= log_weight_i;
+    if (decides_i && accepts_o) begin
+      current_log_q <= log_q;
+      current_o     <= state_i;
+    end
+  end
+endmodule

@@ -1,0 +1,98 @@
+// Parents for Lanes children a cycle, from rows of particles and the children that they end with (mote_offspring).
+//
+//   parent of child c: the first particle i with J_i > c;   children come in groups of Lanes, lane l has child Lanes k + l
+//
+// Two rows are looked at; a group whose children lie in more waits with those it has.
+//
+// range    J do not decrease, rows have children, the last J is the number of all children, a multiple of Lanes
+// timing   a group shows 2 cycles after the row that completes it; a group a cycle unless it lies in three rows or more
+// golden   mote/hardware/filters/offspring.hpp
+module mote_children #(
+    parameter int unsigned Lanes     = 4,
+    parameter int unsigned At        = 10,
+    localparam int unsigned Many     = 2 * Lanes,
+    localparam int unsigned RowWidth = At - $clog2(Many)
+) (
+    input  logic                     clk_i,
+    input  logic                     rst_ni,
+    input  logic                     clear_i,
+    // rows
+    input  logic                     row_valid_i,
+    output logic                     row_pop_o,
+    input  logic [RowWidth-1:0]      row_i,
+    input  logic [Many-1:0][At:0]    ends_i,
+    // groups
+    output logic                     valid_o,
+    input  logic                     ready_i,
+    output logic [Lanes-1:0][At-1:0] parent_o
+);
+  typedef logic [At:0] count_t;
+  typedef struct packed {
+    logic [RowWidth-1:0]   row;
+    logic [Many-1:0][At:0] ends;
+  } row_t;
+  row_t a_q, b_q, next;
+  logic a_valid_q, b_valid_q;
+  assign next = {row_i, ends_i};
+
+  // ---- the children so far, and those of the group that the rows tell
+  count_t first_q, known_q, group_end, end_known;
+  logic done, moves, a_through, b_through;
+  assign group_end = first_q + count_t'(Lanes);
+  assign end_known = b_valid_q ? b_q.ends[Many-1] : a_q.ends[Many-1];
+  assign done = a_valid_q && end_known >= group_end;
+  assign moves = a_valid_q && !(done && valid_o && !ready_i);
+  assign a_through = moves && (!done || a_q.ends[Many-1] <= group_end);
+  assign b_through = moves && (!done || b_q.ends[Many-1] <= group_end);
+
+  function automatic logic [$clog2(Many)-1:0] first_above(input logic [Many-1:0][At:0] ends, input count_t child);
+    logic [$clog2(Many)-1:0] at;
+    at = '0;
+    for (int i = Many - 1; i >= 0; i--) if (ends[i] > child) at = $clog2(Many)'(i);
+    return at;
+  endfunction
+  logic [Lanes-1:0][At-1:0] told, kept_q, group;
+  always_comb begin
+    for (int l = 0; l < Lanes; l++) begin
+      count_t child;
+      child = first_q + count_t'(l);
+      told[l] = a_q.ends[Many-1] > child ? {a_q.row, first_above(a_q.ends, child)} : {b_q.row, first_above(b_q.ends, child)};
+      group[l] = child < known_q ? kept_q[l] : told[l];
+    end
+  end
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) valid_o <= 1'b0;
+    else if (clear_i) valid_o <= 1'b0;
+    else if (moves && done) valid_o <= 1'b1;
+    else if (ready_i) valid_o <= 1'b0;
+  end
+  always_ff @(posedge clk_i) begin
+    if (moves && done) parent_o <= group;
+    if (moves) kept_q <= group;
+    if (clear_i) begin
+      first_q <= '0;
+      known_q <= '0;
+    end else if (moves) begin
+      if (done) first_q <= group_end;
+      known_q <= done ? group_end : end_known;
+    end
+  end
+
+  // ---- the rows move up
+  logic a_stays, b_stays;
+  assign a_stays = a_valid_q && !a_through;
+  assign b_stays = b_valid_q && !b_through;
+  assign row_pop_o = row_valid_i && !(a_stays && b_stays);
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) {a_valid_q, b_valid_q} <= '0;
+    else if (clear_i) {a_valid_q, b_valid_q} <= '0;
+    else begin
+      a_valid_q <= a_stays || b_stays || row_pop_o;
+      b_valid_q <= a_stays && b_stays || (a_stays || b_stays) && row_pop_o;
+    end
+  end
+  always_ff @(posedge clk_i) begin
+    if (!a_stays) a_q <= b_stays ? b_q : next;
+    if (!(a_stays && b_stays)) b_q <= next;
+  end
+endmodule

@@ -1,0 +1,181 @@
+// Systematic resampling for several lanes: how many children the particles so far have, a row of 2 Lanes particles a cycle.
+//
+//   J_i = floor(C_i q + v),  C_i = w_0 + ... + w_i as 17 bits of T = sum w,  q = N / T,  v ~ U[0, 1) of 24 bits
+//   particle i has the children J_(i-1) .. J_i - 1; the last one's J is N
+//
+// Weights are stored with the scale that they were made at and lowered to the last one's when they are read. N / T is a
+// factor (mote_reciprocal), never too large; so no J is above N, and the last particle gains below N 2^-14 children. Rows
+// without children are left out.
+//
+// formats  weights: unsigned; ends_o: the J of a row's particles; row_o: the row's number
+// range    n_i counts slots of Lanes particles, N = Lanes n_i; Lanes 2, 4 or 8; At >= 6
+// timing   the first row is there 11 + log2 Lanes cycles after the last weight is written, initiation interval 1 until the queue of Rows is full. total_i comes with total_valid_i 2 cycles after the
+//          last weight
+// golden   mote/hardware/filters/offspring.hpp
+// source   Kitagawa 1996 (systematic resampling)
+module mote_offspring #(
+    parameter int unsigned Lanes      = 4,
+    parameter int unsigned At         = 10,
+    parameter int unsigned Width      = 24,
+    parameter int unsigned ScaleWidth = 12,
+    parameter int unsigned Rows       = 32,
+    localparam int unsigned Many      = 2 * Lanes,
+    localparam int unsigned RowWidth  = At - $clog2(Many),
+    localparam int unsigned SumWidth  = Width + At
+) (
+    input  logic                         clk_i,
+    input  logic                         rst_ni,
+    input  logic                         drop_i,  // what a run left, until another one's first weight
+    input  logic        [At:0]           n_i,
+    // weights, slot after slot
+    input  logic                         write_i,
+    input  logic [Lanes-1:0][Width-1:0]  weight_i,
+    input  logic signed [ScaleWidth-1:0] scale_i,
+    // the end of a step
+    input  logic                         total_valid_i,
+    input  logic        [SumWidth-1:0]   total_i,
+    input  logic        [23:0]           uniform_i,
+    // rows with children
+    output logic                         valid_o,
+    input  logic                         pop_i,
+    output logic [RowWidth-1:0]          row_o,
+    output logic [Many-1:0][At:0]        ends_o
+);
+  localparam int unsigned Levels = $clog2(Many);
+  localparam int unsigned Latency = 8 + Levels;  // from reading a row to its ends
+  localparam int unsigned WordWidth = Width + ScaleWidth;
+  localparam int unsigned Drop = At - 6;         // bits of N times the reciprocal that are left out
+  localparam int unsigned Frac = 34 - Drop;      // fraction bits of C q
+  localparam int unsigned RoomWidth = $clog2(Rows) + 1;
+  typedef logic [At:0] count_t;
+  typedef logic [RowWidth-1:0] row_t;
+
+  // ---- memory of weights, even and odd slots, two banks
+  logic [At:0] written_q;
+  logic bank_q, last_write;
+  assign last_write = write_i && written_q + count_t'(1) == n_i;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      written_q <= '0;
+      bank_q <= 1'b0;
+    end else begin
+      if (write_i) written_q <= last_write ? '0 : written_q + count_t'(1);
+      if (last_write) bank_q <= ~bank_q;
+    end
+  end
+  logic signed [ScaleWidth-1:0] last_scale_q;
+  row_t row_q;
+  logic [1:0][Lanes-1:0][WordWidth-1:0] word;
+  for (genvar h = 0; h < 2; h++) begin : gen_half
+    for (genvar l = 0; l < Lanes; l++) begin : gen_lane
+      mote_ram #(.Width(WordWidth), .Words(2 << RowWidth)) u_weights (
+          .clk_i,
+          .write_i(write_i && written_q[0] == 1'(h)),
+          .write_at_i({bank_q, written_q[RowWidth:1]}),
+          .write_word_i({scale_i, weight_i[l]}),
+          .read_at_i({~bank_q, row_q}),
+          .read_word_o(word[h][l]));
+    end
+  end
+
+  // ---- reading, from the cycle after the last weight on, as long as the queue has room
+  logic reads_q, reads, last_row, left_out, push, arrives;
+  logic [RoomWidth-1:0] room_q;
+  assign last_row = row_q == row_t'((n_i - count_t'(1)) >> 1);
+  assign reads = reads_q && room_q != '0;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      reads_q <= 1'b0;
+      room_q  <= RoomWidth'(Rows);
+    end else if (drop_i) begin
+      reads_q <= 1'b0;
+      room_q  <= RoomWidth'(Rows);
+    end else begin
+      if (last_write) reads_q <= 1'b1;
+      else if (reads && last_row) reads_q <= 1'b0;
+      room_q <= room_q - RoomWidth'(reads) + RoomWidth'(pop_i) + RoomWidth'(left_out);
+    end
+  end
+  always_ff @(posedge clk_i) begin
+    if (last_write) begin
+      row_q <= '0;
+      last_scale_q <= scale_i;
+    end else if (reads) row_q <= row_q + row_t'(1);
+  end
+
+  // ---- the factor N / T
+  localparam int unsigned ZerosWidth = $clog2(SumWidth);
+  logic [ZerosWidth-1:0] zeros;
+  logic [17:0] reciprocal;
+  logic [At+18:0] product_n_q;
+  logic [23:0] factor_q, uniform_q;
+  logic [At:0] all_n;
+  assign all_n = n_i << $clog2(Lanes);
+  logic [SumWidth-1:0] total_q;
+  always_ff @(posedge clk_i) if (total_valid_i) {total_q, uniform_q} <= {total_i, uniform_i};
+  mote_reciprocal #(.Width(SumWidth)) u_reciprocal (
+      .clk_i, .divisor_i(total_valid_i ? total_i : total_q), .zeros_o(zeros), .reciprocal_o(reciprocal));
+  always_ff @(posedge clk_i) begin
+    product_n_q <= (At + 19)'(reciprocal) * (At + 19)'(all_n);
+    factor_q    <= product_n_q[Drop+:24];
+  end
+  logic unused_product;
+  assign unused_product = ^product_n_q;
+
+  // ---- cumulative sums: lowered to the last scale, summed in the row, added to those before
+  function automatic logic [Width-1:0] lowered(input logic [WordWidth-1:0] stored,
+                                               input logic signed [ScaleWidth-1:0] last);
+    logic [ScaleWidth-1:0] by;
+    by = last - $signed(stored[WordWidth-1:Width]);
+    return by > ScaleWidth'(7) ? '0 : stored[Width-1:0] >> {by[2:0], 3'b0};
+  endfunction
+  logic [Levels:0][Many-1:0][SumWidth-1:0] sum_q;
+  logic [SumWidth-1:0] base_q;
+  logic [Many-1:0][SumWidth-1:0] cum_q, coarse_q;
+  logic [Many-1:0][16:0] share_q;
+  logic sums;
+  logic [Many-1:0][40:0] product_q;
+  logic [Many-1:0][41:0] place_q;
+  mote_valid #(.Depth(3 + Levels)) u_sums (.clk_i, .rst_ni, .valid_i(reads), .valid_o(sums));
+  always_ff @(posedge clk_i) begin
+    for (int i = 0; i < Many; i++) begin
+      sum_q[0][i] <= SumWidth'(lowered(word[i/Lanes][i%Lanes], last_scale_q));
+      for (int k = 0; k < Levels; k++)
+        sum_q[k+1][i] <= sum_q[k][i] + (i >= (1 << k) ? sum_q[k][i-(1<<k)] : '0);
+      cum_q[i]     <= base_q + sum_q[Levels][i];
+      coarse_q[i]  <= cum_q[i] << {zeros[ZerosWidth-1:3], 3'b0};
+      share_q[i]   <= 17'((coarse_q[i] << zeros[2:0]) >> (SumWidth - 17));
+      product_q[i] <= 41'(share_q[i]) * 41'(factor_q);
+      place_q[i]   <= 42'(product_q[i]) + 42'({uniform_q, {(Frac - 24) {1'b0}}});
+    end
+    if (last_write) base_q <= '0;
+    else if (sums) base_q <= base_q + sum_q[Levels][Many-1];
+  end
+
+  // ---- ends; rows without children are left out
+  logic last_ends, lone_ends;
+  row_t row_ends;
+  count_t before_q;
+  logic [Many-1:0][At:0] ends;
+  mote_valid #(.Depth(Latency)) u_arrives (.clk_i, .rst_ni, .valid_i(reads), .valid_o(arrives));
+  mote_delay #(.Width(RowWidth + 2), .Depth(Latency)) u_last (
+      .clk_i, .d_i({last_row, last_row && n_i[0], row_q}), .d_o({last_ends, lone_ends, row_ends}));
+  always_comb begin
+    for (int i = 0; i < Many; i++) begin
+      ends[i] = place_q[i][Frac+:At+1];
+      if (last_ends && (i == Many - 1 || lone_ends && i >= Lanes - 1)) ends[i] = all_n;
+    end
+  end
+  assign left_out = arrives && ends[Many-1] == before_q;
+  assign push = arrives && ends[Many-1] != before_q;
+  always_ff @(posedge clk_i) begin
+    if (last_write) before_q <= '0;
+    else if (arrives) before_q <= ends[Many-1];
+  end
+  logic no_row, unused_full;
+  mote_fifo #(.Width(Many * (At + 1) + RowWidth), .Depth(Rows)) u_rows (
+      .clk_i, .rst_ni, .clear_i(drop_i),
+      .push_i(push), .word_i({row_ends, ends}),
+      .pop_i, .word_o({row_o, ends_o}), .empty_o(no_row), .full_o(unused_full));
+  assign valid_o = !no_row;
+endmodule

@@ -1,0 +1,85 @@
+// The set of Lanes chains, and a parent for each lane a cycle: uniform over what the lane may choose from.
+//
+//   slot = floor(u n_i), u of 24 bits; the chain whose slot it is, by Choice:
+//     0 private  the lane's own
+//     1 banked   (lane + r) mod Lanes, r from lane 0's word: no two lanes read one memory, each parent is uniform over all
+//     2 shared   r of the lane's own word: parents are independent, every lane holds a copy of all memories
+//
+// formats  words as they come: u from the 24 upper bits, r from the bits below. Lanes: a power of two, at most 256
+// timing   state_o 4 cycles after advance_i, initiation interval 1; two sets: bank_i is read, the other one is written
+// golden   mote/hardware/filters/imh.hpp
+module mote_parents #(
+    parameter int unsigned Lanes      = 1,
+    parameter int unsigned Choice     = 0,
+    parameter int unsigned Width      = 18,
+    parameter int unsigned CountWidth = 13,
+    parameter int unsigned SlotWidth  = 10,
+    parameter logic [63:0] Seed       = 64'd1,
+    parameter int unsigned Stream     = 0,
+    parameter int unsigned StreamStep = 1,
+    localparam int unsigned LaneWidth = Lanes > 1 ? $clog2(Lanes) : 1
+) (
+    input  logic                        clk_i,
+    input  logic                        rst_ni,
+    input  logic                        advance_i,
+    input  logic [CountWidth-1:0]       n_i,
+    input  logic                        bank_i,
+    output logic [Lanes-1:0][Width-1:0] state_o,
+    input  logic                        write_i,
+    input  logic [SlotWidth-1:0]        write_slot_i,
+    input  logic [Lanes-1:0][Width-1:0] write_state_i
+);
+  typedef logic [LaneWidth-1:0] lane_t;
+  localparam int unsigned ProductWidth = CountWidth + 24;
+
+  // ---- slots
+  logic [Lanes-1:0][31:0] word;
+  logic [Lanes-1:0][SlotWidth-1:0] slot_q;
+  lane_t [Lanes-1:0] from;  // the chain that each lane reads from
+  for (genvar l = 0; l < Lanes; l++) begin : gen_slot
+    mote_words #(.Seed(Seed), .Stream(Stream + StreamStep * l)) u_words (
+        .clk_i, .rst_ni, .advance_i, .word_o(word[l]));
+    logic [23:0] uniform_q;
+    always_ff @(posedge clk_i) begin
+      uniform_q <= word[l][31:8];
+      slot_q[l] <= SlotWidth'(ProductWidth'(uniform_q) * ProductWidth'(n_i) >> 24);
+    end
+    lane_t turn;
+    assign turn = Choice == 0 || Lanes == 1 ? '0 : Choice == 1 ? word[0][7-:LaneWidth] : word[l][7-:LaneWidth];
+    mote_delay #(.Width(LaneWidth), .Depth(2)) u_from (
+        .clk_i, .d_i(Choice == 2 ? turn : lane_t'(l) + turn), .d_o(from[l]));
+    logic unused_word;
+    assign unused_word = ^word[l][7:0];
+  end
+
+  // ---- memories: one a chain, in turn with the lanes; or a copy of all for every lane
+  if (Choice == 2) begin : gen_shared
+    logic [Lanes-1:0][SlotWidth:0] slot;
+    for (genvar l = 0; l < Lanes; l++) begin : gen_lane
+      assign slot[l] = {bank_i, slot_q[l]};
+    end
+    mote_set #(.Lanes(Lanes), .Width(Width), .SlotWidth(SlotWidth + 1)) u_set (
+        .clk_i,
+        .write_i,
+        .write_slot_i({~bank_i, write_slot_i}),
+        .write_state_i,
+        .read_slot_i(slot),
+        .read_lane_i(from),
+        .read_state_o(state_o));
+  end else begin : gen_turns
+    logic [Lanes-1:0][Width-1:0] read;
+    for (genvar l = 0; l < Lanes; l++) begin : gen_lane
+      lane_t reader, from4;
+      assign reader = Lanes == 1 ? '0 : lane_t'(l) - from[0];
+      mote_ram #(.Width(Width), .Words(2 << SlotWidth)) u_set (
+          .clk_i,
+          .write_i,
+          .write_at_i({~bank_i, write_slot_i}),
+          .write_word_i(write_state_i[l]),
+          .read_at_i({bank_i, slot_q[reader]}),
+          .read_word_o(read[l]));
+      mote_delay #(.Width(LaneWidth), .Depth(2)) u_from (.clk_i, .d_i(from[l]), .d_o(from4));
+      assign state_o[l] = read[from4];
+    end
+  end
+endmodule
