@@ -16,7 +16,7 @@ using graph::Op;
 using graph::Role;
 using graph::Vertex;
 
-constexpr double kNoiseShare = 8, kErrorShare = 16;          // a step is at most such a part of either
+constexpr double kNoiseShare = 16, kErrorShare = 32;         // a step is at most such a part of either
 constexpr double kLogStep = 1.0 / 16, kStateLogStep = 0.25;  // octaves
 constexpr double kFaintOctaves = 8;
 constexpr int kMostFraction = 30, kMostBits = 40, kMostOfFunction = 24;

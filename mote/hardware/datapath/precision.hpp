@@ -16,12 +16,13 @@ struct Precision {
 
 /// Formats by linear error analysis on samples: a vertex v whose word has the step D_v keeps
 ///
-///   D_v rms(dx_d / dv) <= e_d for every state d it leads to,   e_d = min(sd of the move's noise in x_d / 8, RMSE / 16)
-///   D_v rms(dl / dv)   <= 1/16 octave,   l = log2 p(y | x)
+///   D_v rms(dx_d / dv) <= e_d for every state d it leads to,   e_d = min(sd of the move's noise in x_d / 16, RMSE /
+///   32) D_v rms(dl / dv)   <= 1/16 octave,   l = log2 p(y | x)
 ///
-/// Rounding adds D^2 / 12, so that one word adds less than 0.2 % to a noise's variance. Slopes of l count less where
+/// Rounding adds D^2 / 12, so that one word adds less than 0.1 % to a noise's variance. Slopes of l count less where
 /// the weight is small: by 1 / (1 + d / 8) at d octaves below the largest l of the samples. A state's own step may
-/// change l by half an octave. What floor() and comparisons read is known to 2^-8 and to a thousandth of its range.
+/// change l by a quarter of an octave. What floor() and comparisons read is known to 2^-8 and to a thousandth of its
+/// range.
 ///
 /// Integer bits hold what was sampled, widened by `margin`, or what interval analysis allows where that costs at most
 /// two bits more; words saturate.
