@@ -56,7 +56,7 @@ hardware::Arithmetic local_level(unsigned shrink) {
   model.propose = [](unsigned t, hardware::Observed, const hardware::Particles& parents,
                      const hardware::WordColumns& words, hardware::Particles& states) {
     const auto noise = [](std::uint32_t word, double deviation) {
-      return std::lround(normal(hardware::signed_bits(word)) * deviation / 4096);
+      return std::lround(static_cast<double>(normal(hardware::signed_bits(word))) * deviation / 4096);
     };
     for (std::size_t j = 0; j < states[0].size(); ++j) {
       const std::int64_t base = t == 1 ? 32 * 1120 + noise(words[0][j], 32 * 316.23) : parents[0][j];
