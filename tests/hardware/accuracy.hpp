@@ -1,6 +1,7 @@
 #pragma once
 /// Golden filters on a model's datapath against the double filters, at equal numbers of particles.
 
+#include <algorithm>
 #include <cmath>
 
 #include "mote/filter/imh.hpp"
@@ -39,7 +40,7 @@ struct AccuracyDesign {
   std::size_t recordings = 1;
   std::uint32_t particles = 1000;
   Step steps = 50;
-  bool quartered = false;  ///< the twin that must fail: log weights are a quarter of what they should be
+  bool sharpened = false;  ///< the twin that must fail: log weights are four times what they should be
 };
 
 /// The distance of means, by step and state, from the exact ones.
@@ -79,11 +80,11 @@ template <std::size_t Copies>
 std::pair<Paired, Paired> growth_accuracy(const AccuracyDesign& design) {
   const Ungm<Copies> model;
   Subject growth = subject("growth", *catalogue_model("ungm", {"copies=" + std::to_string(Copies)}));
-  if (design.quartered) {
+  if (design.sharpened) {
     auto& weigh = growth.datapath.arithmetic.weigh;
     weigh = [full = weigh](unsigned t, Observed y, const Particles& x, std::span<std::int64_t> log_weights) {
       full(t, y, x, log_weights);
-      for (std::int64_t& log_weight : log_weights) log_weight /= 4;
+      for (std::int64_t& log_weight : log_weights) log_weight = std::max<std::int64_t>(4 * log_weight, -(1 << 23));
     };
   }
   const auto solver = referee::solver_of(model);

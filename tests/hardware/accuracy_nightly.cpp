@@ -12,7 +12,7 @@ void expect_accuracy(const char* sisr_name, const char* imh_name) {
   print(imh_name, imh);
   EXPECT_LE(sisr.ratio().first, 1.03);
   EXPECT_LE(imh.ratio().first, 1.03);
-  EXPECT_GT(growth_accuracy<Copies>({.recordings = 300, .quartered = true}).first.ratio().first, 1.03) << "the twin";
+  EXPECT_GT(growth_accuracy<Copies>({.recordings = 300, .sharpened = true}).first.ratio().first, 1.03) << "the twin";
 }
 
 // claim    the error to the exact means of a generated circuit is at most 1.03 times the double filter's
