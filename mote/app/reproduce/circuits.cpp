@@ -1,5 +1,8 @@
 #include "mote/app/reproduce/circuits.hpp"
 
+#include <utility>
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "mote/app/commands/rtl_options.hpp"
@@ -14,10 +17,12 @@ CircuitBench::CircuitBench(const Run& run, const Job& job) : where_(run.where), 
   family_ = family_from(arguments);
 }
 
-std::string CircuitBench::missing() const {
-  for (const char* tool : {"verilator", "yosys"})
-    if (!hardware::on_path(tool))
-      return std::string("there is no ") + tool + ". Install it: apt-get install " + tool + ".";
+std::string CircuitBench::missing(const Comparison& c) const {
+  if (c.key == "stages") return "";
+  const bool synthesised = family_ && c.mhz == 0;
+  for (const auto& [tool, needed] : {std::pair{"verilator", true}, {"yosys", synthesised}})
+    if (needed && !hardware::on_path(tool))
+      return fmt::format("there is no {0}. Install it: apt-get install {0}.", tool);
   return "";
 }
 
@@ -46,13 +51,20 @@ double CircuitBench::step_cycles_over_law(const Recording& recording) {
   return (cycles(observed.size()) - cycles(1)) / (static_cast<double>(observed.size() - 1) * law);
 }
 
-double CircuitBench::figure(const std::string& key, const Recording& recording) {
-  if (key == "step_cycles_over_law") return step_cycles_over_law(recording);
+const CircuitReport& CircuitBench::report(const Recording& recording) {
   if (!found_) {
     found_ = CircuitReport{job_.model_name, "", design_, {}, simulated_run(circuit(), design_, recording, where_), {}};
     if (family_) found_->cost = hardware::cost_of(*circuit().machine, *family_);
   }
-  const nlohmann::json value = circuit_json(circuit(), *found_)[key];
+  return *found_;
+}
+
+double CircuitBench::figure(const Comparison& c, const Recording& recording) {
+  if (c.key == "step_cycles_over_law") return step_cycles_over_law(recording);
+  if (c.key == "stages") return circuit().machine->stages();
+  const CircuitReport& found = report(recording);
+  if (c.mhz > 0) return static_cast<double>(found.simulation->agreement.cycles) / (1000 * c.mhz);
+  const nlohmann::json value = circuit_json(circuit(), found)[c.key];
   return value.is_number() ? value.get<double>() : kNaN;
 }
 

@@ -17,15 +17,16 @@ class CircuitBench {
   /// error   Refusal (kWrongUse) naming file:line for options that `mote rtl` does not have
   CircuitBench(const Run& run, const Job& job);
 
-  /// Why figures cannot be had: a tool is not there. Empty if all are.
-  std::string missing() const;
+  /// Why a comparison's figure cannot be had: the tool for it is not there. Empty if it is.
+  std::string missing(const Comparison& comparison) const;
   RunRecord record(const Recording& recording, std::uint64_t seed_offset);
-  /// One of kCircuitKeys, on a recording.
-  double figure(const std::string& key, const Recording& recording);
+  /// What a comparison asks for, one of kCircuitKeys, on a recording.
+  double figure(const Comparison& comparison, const Recording& recording);
 
  private:
   const FilterCircuit& circuit();
   double step_cycles_over_law(const Recording& recording);
+  const CircuitReport& report(const Recording& recording);
 
   std::string where_;
   Job job_;

@@ -233,6 +233,9 @@ Comparison comparison_from(Fields fields, const Item& item) {
   }
   if (c.kind == Kind::kCircuit) {
     c.key = kCircuitKeys[fields.choice("key", kCircuitKeys)];
+    if (c.key == "milliseconds") c.mhz = fields.number("mhz").value_or(0);
+    if (c.mhz < 0 || (c.mhz == 0 && c.key == "milliseconds" && fields.has("mhz")))
+      fields.refuse("mhz", "a number above 0");
     for (const std::string& name : c.runs)
       if (std::none_of(item.runs.begin(), item.runs.end(), [&](const Run& r) { return r.name == name && r.circuit; }))
         fields.refuse("runs", "names of runs with circuit = true");
@@ -335,7 +338,7 @@ std::string meaning_of(const Comparison& c) {
       return fmt::format("{} on a simulated cluster, {} proposers, {} weighers", meaning_of_key(c.key),
                          c.cast.proposers, c.cast.weighers);
     case Kind::kCircuit:
-      return fmt::format("Figure of a circuit: {}", c.key);
+      return fmt::format("Figure of a circuit: {}{}", c.key, c.mhz > 0 ? fmt::format(" at {:g} MHz", c.mhz) : "");
     case Kind::kParticlesEnough:
       return fmt::format(
           "Particles that are enough: the least number from which on the centre error, a mean over filter seeds and "

@@ -85,6 +85,7 @@ struct Comparison {
   double slack = 0;                  ///< of kParticlesEnough: share that the centre error may be above that of the most
   double ess = 0;                    ///< level of the weights
   Cast cast = {};                    ///< of kCluster: proposers and weighers of the setting that is asked for
+  double mhz = 0;                    ///< of kCircuit: the clock of its milliseconds; 0: the one that was found
   Unit unit = Unit::kStandardError;  ///< of a mean difference
   bool median = false;               ///< over the repeats, instead of the mean
   int repeats = 20;

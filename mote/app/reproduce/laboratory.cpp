@@ -146,9 +146,6 @@ void Laboratory::check_comparisons() const {
 
 std::string Laboratory::missing() const {
   if (clusters_) return clusters_->missing();
-  for (const Comparison& c : item_.comparisons)
-    if (c.kind == Kind::kCircuit)
-      if (std::string tool = benches_.at(c.runs.front()).circuit->missing(); !tool.empty()) return tool;
   const std::string clip = cinema_ ? cinema_->missing() : "";
   return clip.empty() ? "" : fmt::format("there is no {}. Set MOTE_DATA to the folder with clips/.", clip);
 }
@@ -240,7 +237,7 @@ std::vector<double> Laboratory::sample(const Comparison& c, std::uint64_t repeat
   if (cinema_) return cinema_->sample(c, repeat, side, ran_);
   if (clusters_) return {clusters_->figure(c, side, ran_)};
   if (c.kind == Kind::kCircuit) {
-    const double figure = benches_.at(c.runs[side]).circuit->figure(c.key, scene(0).recording);
+    const double figure = benches_.at(c.runs[side]).circuit->figure(c, scene(0).recording);
     ran_();
     return {figure};
   }
@@ -426,11 +423,24 @@ void Laboratory::show_clips(Outcome& outcome) {
   outcome.tracks = cinema_->rows();
 }
 
+/// The golden model of a circuit goes on without the tools that simulate and synthesise.
+std::string Laboratory::missing_tool(const Comparison& c) const {
+  if (c.kind != Kind::kCircuit) return "";
+  for (const std::string& run : c.runs)
+    if (std::string tool = benches_.at(run).circuit->missing(c); !tool.empty()) return tool;
+  return "";
+}
+
 Outcome Laboratory::regenerate(const std::function<void()>& ran) {
   ran_ = ran;
   Outcome outcome;
   if (!item_.weights && !cinema_ && !clusters_) run_filters(outcome);
-  for (const Comparison& comparison : item_.comparisons) outcome.results.push_back(judged(comparison));
+  for (const Comparison& comparison : item_.comparisons)
+    if (const std::string tool = missing_tool(comparison); !tool.empty()) {
+      outcome.left_out.push_back(fmt::format("left out {}: {}", comparison.name, tool));
+    } else {
+      outcome.results.push_back(judged(comparison));
+    }
   for (const Figure& figure : item_.figures)
     if (!figure.against.empty()) outcome.errors[figure.title] = errors_of(figure);
   if (item_.weights) outcome.tradeoffs = tradeoffs();

@@ -49,6 +49,7 @@ struct Outcome {
   Truth truth;
   std::vector<std::pair<std::string, RunRecord>> records;  ///< by run, those that did not collapse
   std::vector<std::string> collapses;                      ///< what the others said
+  std::vector<std::string> left_out;                       ///< comparisons of circuits whose tool is not there
   std::vector<Tradeoff> tradeoffs;                         ///< of an item on weights, instead of records
   std::vector<TrackRow> tracks;                            ///< of an item on a clip, likewise
   std::vector<report::Picture> pictures;                   ///< of an item on a clip
@@ -105,6 +106,7 @@ class Laboratory {
   std::vector<const Run*> drawn_in(const Figure& figure) const;
   std::vector<ErrorRow> errors_of(const Figure& figure);
   Result judged(const Comparison& comparison);
+  std::string missing_tool(const Comparison& comparison) const;
 
   Item item_;
   std::vector<std::string> header_;

@@ -74,6 +74,7 @@ std::vector<std::string> notes_on(const std::vector<Regenerated>& all) {
     for (const auto& [run, sweep] : outcome.sweeps)
       notes.push_back(
           fmt::format("{}, {}: {}, {}.", name_of(item), run, simulated::times_of(sweep.work), sweep.where_from));
+    for (const std::string& sentence : outcome.left_out) notes.push_back(name_of(item) + ": " + sentence);
     for (const std::string& collapse : outcome.collapses) notes.push_back(name_of(item) + ", " + collapse);
   }
   return notes;
@@ -113,6 +114,8 @@ std::string comparison_text(const std::vector<Regenerated>& all) {
       text += fmt::format("{:<14} {}: {}: {} (paper: {}; holds when {})\n", result.holds ? "holds" : "DOES NOT HOLD",
                           name_of(item), result.asked.name, ours_text(result), paper_text(result.asked),
                           condition_of(result.asked));
+  for (const auto& [item, outcome] : all)
+    for (const std::string& sentence : outcome.left_out) text += fmt::format("{}: {}\n", name_of(item), sentence);
   return text;
 }
 
