@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::uint32_t kParticles = 200;
 constexpr Step kLength = 50;
+constexpr std::size_t kFirst = 10;  ///< steps left out: the prior's, so wide that they would be nearly all of the error
 constexpr std::uint64_t kRecordings = 1500;
 
 /// Sum of squared differences of a step's means from the exact ones.
@@ -27,7 +28,7 @@ double rmse(std::uint64_t recordings, const Errors& errors) {
     const Recording recording = simulate(LocalLevel{}, kLength, seed).recording;
     squares += errors(recording, referee::kalman(LocalLevel{}, recording), seed);
   }
-  return std::sqrt(squares / static_cast<double>(recordings) / static_cast<double>(kLength));
+  return std::sqrt(squares / static_cast<double>(recordings) / static_cast<double>(kLength - kFirst));
 }
 
 /// The reference engine's filter of a kind.
@@ -42,7 +43,7 @@ Errors software(FilterKind kind) {
     const auto filter = make_reference_filter(LocalLevel{}, plan, "test");
     const RunRecord record = run(*filter, plan, recording, request);
     double squares = 0;
-    for (std::size_t k = 0; k < laws.size(); ++k)
+    for (std::size_t k = kFirst; k < laws.size(); ++k)
       squares += std::pow(record.rows[k].states[0].mean - laws[k].mean(0), 2);
     return squares;
   };
@@ -81,7 +82,7 @@ Errors circuit(std::function<Filter(std::uint64_t)> make, Start start) {
     for (std::size_t k = 0; k < laws.size(); ++k) {
       const std::vector<std::int64_t> y{std::lround(32 * recording.steps[k].rows[0][0])};
       const auto mean = static_cast<double>(filter.step(y).mean[0]) / (32 * 256);
-      squares += std::pow(mean - laws[k].mean(0), 2);
+      if (k >= kFirst) squares += std::pow(mean - laws[k].mean(0), 2);
     }
     return squares;
   };
@@ -108,7 +109,7 @@ constexpr hardware::ImhRegisters kRegisters{kParticles, kParticles, 0, false};
 // claim    the IMH circuit is as far from the exact means as the software filter, within 3 %; so are four chains whose
 //          parents are all chains', while those of private parents are farther
 // referee  the Kalman filter; the reference engine's IMH filter with as many particles
-// design   1500 recordings of 50 steps of the local level, N = 200; seeds 1 .. 1500, fixed
+// design   1500 recordings of 50 steps of the local level, the first 10 left out, N = 200; seeds 1 .. 1500, fixed
 // risk     none: fixed seeds; the standard error of a ratio is about 0.8 %. The twin (log weights halved) must be
 //          caught, and the chain's mean is worse, as theory says
 TEST(ImhCircuit, IsAsAccurateAsTheSoftwareFilter) {
