@@ -23,7 +23,7 @@ module mote_words #(
     z = (z ^ (z >> 30)) * 64'hBF58476D1CE4E5B9;
     z = (z ^ (z >> 27)) * 64'h94D049BB133111EB;
     z = z ^ (z >> 31);
-    return z[63:32];
+    mixed = z[63:32];
   endfunction
   // A component must not be below 2, 8, 16: one bit is set.
   localparam logic [31:0] FirstA = mixed(64'd1) | 32'd2;

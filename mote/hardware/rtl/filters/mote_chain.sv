@@ -34,10 +34,10 @@ module mote_chain #(
 
   bound_t bound_q;
   logic signed [LogWidth-1:0] log_q, current_log_q;
-  assign accepts_o = starts_i || bound_t'(current_log_q) <= bound_q;
+  assign accepts_o = starts_i || (LogWidth + 1)'(current_log_q) <= bound_q;
   assign state_o = accepts_o ? state_i : current_o;
   always_ff @(posedge clk_i) begin
-    bound_q <= bound_t'(log_weight_i) + bound_t'({1'b0, drop});
+    bound_q <= (LogWidth + 1)'(log_weight_i) + (LogWidth + 1)'({1'b0, drop});
     log_q   <= log_weight_i;
     if (decides_i && accepts_o) begin
       current_log_q <= log_q;

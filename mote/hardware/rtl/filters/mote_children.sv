@@ -20,45 +20,45 @@ module mote_children #(
     input  logic                     row_valid_i,
     output logic                     row_pop_o,
     input  logic [RowWidth-1:0]      row_i,
-    input  logic [Many-1:0][At:0]    ends_i,
+    input  logic [Many*(At+1)-1:0]   ends_i,
     // groups
     output logic                     valid_o,
     input  logic                     ready_i,
-    output logic [Lanes-1:0][At-1:0] parent_o
+    output logic [Lanes*At-1:0]      parent_o
 );
   typedef logic [At:0] count_t;
-  typedef struct packed {
-    logic [RowWidth-1:0]   row;
-    logic [Many-1:0][At:0] ends;
-  } row_t;
-  row_t a_q, b_q, next;
+  localparam int unsigned EndsWidth = Many * (At + 1);
+  localparam int unsigned PlaceWidth = $clog2(Many);
+  logic [RowWidth-1:0] a_row_q, b_row_q;
+  logic [EndsWidth-1:0] a_ends_q, b_ends_q;
   logic a_valid_q, b_valid_q;
-  assign next = {row_i, ends_i};
 
   // ---- the children so far, and those of the group that the rows tell
-  count_t first_q, known_q, group_end, end_known;
+  count_t first_q, known_q, group_end, end_known, a_end, b_end;
+  assign a_end = a_ends_q[EndsWidth-1-:At+1];
+  assign b_end = b_ends_q[EndsWidth-1-:At+1];
   logic done, moves, a_through, b_through;
-  assign group_end = first_q + count_t'(Lanes);
-  assign end_known = b_valid_q ? b_q.ends[Many-1] : a_q.ends[Many-1];
+  assign group_end = first_q + (At + 1)'(Lanes);
+  assign end_known = b_valid_q ? b_end : a_end;
   assign done = a_valid_q && end_known >= group_end;
   assign moves = a_valid_q && !(done && valid_o && !ready_i);
-  assign a_through = moves && (!done || a_q.ends[Many-1] <= group_end);
-  assign b_through = moves && (!done || b_q.ends[Many-1] <= group_end);
+  assign a_through = moves && (!done || a_end <= group_end);
+  assign b_through = moves && (!done || b_end <= group_end);
 
-  function automatic logic [$clog2(Many)-1:0] first_above(input logic [Many-1:0][At:0] ends, input count_t child);
-    logic [$clog2(Many)-1:0] at;
-    at = '0;
-    for (int i = Many - 1; i >= 0; i--) if (ends[i] > child) at = $clog2(Many)'(i);
-    return at;
-  endfunction
-  logic [Lanes-1:0][At-1:0] told, kept_q, group;
-  always_comb begin
-    for (int l = 0; l < Lanes; l++) begin
-      count_t child;
-      child = first_q + count_t'(l);
-      told[l] = a_q.ends[Many-1] > child ? {a_q.row, first_above(a_q.ends, child)} : {b_q.row, first_above(b_q.ends, child)};
-      group[l] = child < known_q ? kept_q[l] : told[l];
+  logic [Lanes*At-1:0] kept_q, group;
+  for (genvar l = 0; l < Lanes; l++) begin : gen_child
+    count_t child;
+    logic in_a;
+    logic [EndsWidth-1:0] ends;
+    logic [PlaceWidth-1:0] place;
+    assign child = first_q + (At + 1)'(l);
+    assign in_a = a_end > child;
+    assign ends = in_a ? a_ends_q : b_ends_q;
+    always_comb begin
+      place = '0;
+      for (int i = Many - 1; i >= 0; i--) if (ends[i*(At+1)+:At+1] > child) place = PlaceWidth'(i);
     end
+    assign group[l*At+:At] = child < known_q ? kept_q[l*At+:At] : {in_a ? a_row_q : b_row_q, place};
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) valid_o <= 1'b0;
@@ -92,7 +92,7 @@ module mote_children #(
     end
   end
   always_ff @(posedge clk_i) begin
-    if (!a_stays) a_q <= b_stays ? b_q : next;
-    if (!(a_stays && b_stays)) b_q <= next;
+    if (!a_stays) {a_row_q, a_ends_q} <= b_stays ? {b_row_q, b_ends_q} : {row_i, ends_i};
+    if (!(a_stays && b_stays)) {b_row_q, b_ends_q} <= {row_i, ends_i};
   end
 endmodule

@@ -29,15 +29,15 @@ module mote_estimate #(
     input  logic                                  weight_valid_i,
     input  logic                                  weight_first_i,
     input  logic        [2:0]                     weight_rise_i,
-    input  logic        [Lanes-1:0][Width-1:0]    weight_i,
+    input  logic        [Lanes*Width-1:0]         weight_i,
     input  logic signed [ScaleWidth-1:0]          scale_i,
     output logic        [SumWidth-1:0]            sum_so_far_o,
     // values, each with the weight it goes by
     input  logic                                  value_valid_i,
     input  logic                                  value_first_i,
     input  logic        [2:0]                     value_rise_i,
-    input  logic        [Lanes-1:0][Width-1:0]    value_weight_i,
-    input  logic        [Lanes-1:0][Dims-1:0][ValueWidth-1:0] value_i,
+    input  logic        [Lanes*Width-1:0]         value_weight_i,
+    input  logic        [Lanes*Dims*ValueWidth-1:0] value_i,
     // end of a step
     input  logic                                  done_i,
     input  logic                                  last_i,
@@ -49,7 +49,7 @@ module mote_estimate #(
     output logic                                  valid_o,
     input  logic                                  ready_i,
     output logic                                  last_o,
-    output logic        [Dims-1:0][MeanWidth-1:0] mean_o,
+    output logic        [Dims*MeanWidth-1:0]      mean_o,
     output logic        [SumWidth-1:0]            sum_o,
     output logic signed [ScaleWidth-1:0]          scale_o,
     output logic        [At:0]                    accepted_o
@@ -69,7 +69,7 @@ module mote_estimate #(
   logic [2:0] row_rise;
   always_comb begin
     row_d = '0;
-    for (int l = 0; l < Lanes; l++) row_d += SumWidth'(weight_i[l]);
+    for (int l = 0; l < Lanes; l++) row_d = row_d + SumWidth'(weight_i[l*Width+:Width]);
   end
   mote_valid #(.Depth(Tree)) u_row_valid (.clk_i, .rst_ni, .valid_i(weight_valid_i), .valid_o(row_valid));
   mote_delay #(.Width(SumWidth + ScaleWidth + 4), .Depth(Tree)) u_row (
@@ -87,30 +87,31 @@ module mote_estimate #(
   mote_valid #(.Depth(Wait)) u_value_valid (.clk_i, .rst_ni, .valid_i(value_valid_i), .valid_o(value_valid));
   mote_delay #(.Width(4), .Depth(Wait)) u_value (
       .clk_i, .d_i({value_first_i, value_rise_i}), .d_o({value_first, value_rise}));
-  total_t total[Dims];
+  localparam int unsigned ProductWidth = Width + ValueWidth + 1;
+  logic [Dims*TotalWidth-1:0] total;
   for (genvar d = 0; d < Dims; d++) begin : gen_total
-    logic signed [Lanes-1:0][Width+ValueWidth:0] products;
+    logic [Lanes*ProductWidth-1:0] products;
     total_t total_q, lowered, terms_d, terms;
     for (genvar l = 0; l < Lanes; l++) begin : gen_lane
       logic signed [Width:0] weight_q;
       logic signed [ValueWidth-1:0] value_q;
-      logic signed [Width+ValueWidth:0] product_q, product2_q;
+      logic signed [ProductWidth-1:0] product_q, product2_q;
       always_ff @(posedge clk_i) begin
-        weight_q   <= $signed({1'b0, value_weight_i[l]});
-        value_q    <= $signed(value_i[l][d]);
+        weight_q   <= $signed({1'b0, value_weight_i[l*Width+:Width]});
+        value_q    <= $signed(value_i[(l*Dims+d)*ValueWidth+:ValueWidth]);
         product_q  <= weight_q * value_q;
         product2_q <= product_q;
       end
-      assign products[l] = product2_q;
+      assign products[l*ProductWidth+:ProductWidth] = product2_q;
     end
     always_comb begin
       terms_d = '0;
-      for (int l = 0; l < Lanes; l++) terms_d += total_t'($signed(products[l]));
+      for (int l = 0; l < Lanes; l++) terms_d = terms_d + TotalWidth'($signed(products[l*ProductWidth+:ProductWidth]));
     end
     mote_delay #(.Width(TotalWidth), .Depth(Tree)) u_terms (.clk_i, .d_i(terms_d), .d_o(terms));
     assign lowered = total_q >>> {value_rise, 3'b0};
-    always_ff @(posedge clk_i) if (value_valid) total_q <= (value_first ? total_t'(0) : lowered) + terms;
-    assign total[d] = total_q;
+    always_ff @(posedge clk_i) if (value_valid) total_q <= (value_first ? TotalWidth'(0) : lowered) + terms;
+    assign total[d*TotalWidth+:TotalWidth] = total_q;
   end
 
   // ---- the end of a step, when the last value is in
@@ -136,7 +137,7 @@ module mote_estimate #(
   logic busy_q;
   logic [CountWidth-1:0] count_q;
   logic [Dims-1:0] turn_q;
-  logic [Dims-1:0][TotalWidth-1:0] left_q;
+  logic [Dims*TotalWidth-1:0] left_q;
   logic [SumWidth-1:0] divisor_q;
   logic [SumWidth-1:0] rest_q;
   logic [Bits-1:0] quotient_q;
@@ -146,7 +147,7 @@ module mote_estimate #(
   logic fits;
   logic [TotalWidth-1:0] magnitude;
   assign take = pending_q && !busy_q && !valid_o;
-  assign magnitude = left_q[0][TotalWidth-1] ? -left_q[0] : left_q[0];
+  assign magnitude = left_q[TotalWidth-1] ? -left_q[0+:TotalWidth] : left_q[0+:TotalWidth];
   assign doubled = {rest_q, quotient_q[Bits-1]};
   assign fits = doubled >= {1'b0, divisor_q};
   assign reduced = SumWidth'(fits ? doubled - {1'b0, divisor_q} : doubled);
@@ -167,6 +168,11 @@ module mote_estimate #(
       else if (ready_i) valid_o <= 1'b0;
     end
   end
+  // Means come in the order of the values: each enters at the top and moves the others down.
+  logic [MeanWidth-1:0] mean;
+  logic [Dims*MeanWidth-1:0] means;
+  assign mean = negative_q ? -{1'b0, quotient_d} : {1'b0, quotient_d};
+  assign means = (Dims * MeanWidth)'({mean, mean_o} >> MeanWidth);
   always_ff @(posedge clk_i) begin
     if (take) begin
       divisor_q  <= equal_i ? SumWidth'(count_i) << 16 : sum_q;
@@ -176,18 +182,18 @@ module mote_estimate #(
       last_o     <= pending_last_q;
       turn_q     <= Dims'(1) << (Dims - 1);
       count_q    <= '0;
-      for (int d = 0; d < Dims; d++) left_q[d] <= total[d];
+      left_q     <= total;
     end else if (busy_q) begin
       if (loading) begin
         rest_q     <= SumWidth'(magnitude >> ValueWidth);
         quotient_q <= {magnitude[ValueWidth-1:0], {Extra{1'b0}}};
-        negative_q <= left_q[0][TotalWidth-1];
+        negative_q <= left_q[TotalWidth-1];
       end else begin
         rest_q     <= reduced;
         quotient_q <= quotient_d;
       end
       if (finished) begin
-        mean_o  <= shifted_in(mean_o, negative_q ? -{1'b0, quotient_d} : {1'b0, quotient_d});
+        mean_o  <= means;
         left_q  <= left_q >> TotalWidth;
         turn_q  <= turn_q >> 1;
         count_q <= '0;
@@ -196,12 +202,4 @@ module mote_estimate #(
       end
     end
   end
-  // Means come in the order of the values: each enters at the top and moves the others down.
-  function automatic logic [Dims-1:0][MeanWidth-1:0] shifted_in(input logic [Dims-1:0][MeanWidth-1:0] so_far,
-                                                               input logic [MeanWidth-1:0] mean);
-    logic [Dims-1:0][MeanWidth-1:0] moved;
-    moved = so_far >> MeanWidth;
-    moved[Dims-1] = mean;
-    return moved;
-  endfunction
 endmodule

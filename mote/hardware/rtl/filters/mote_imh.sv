@@ -63,21 +63,21 @@ module mote_imh #(
     output logic        [15:0]                     t_o,
     output logic        [ObsWidth-1:0]             obs_o,
     output logic                                   propose_valid_o,
-    output logic [Lanes-1:0][StateWidth-1:0]       propose_state_o,
-    output logic [Lanes-1:0][DrawWords-1:0][31:0] propose_words_o,
-    input  logic [Lanes-1:0][StateWidth-1:0]       propose_state_i,
+    output logic [Lanes*StateWidth-1:0]           propose_state_o,
+    output logic [Lanes*DrawWords*32-1:0]         propose_words_o,
+    input  logic [Lanes*StateWidth-1:0]           propose_state_i,
     output logic                                   weigh_valid_o,
-    output logic [Lanes-1:0][StateWidth-1:0]       weigh_state_o,
-    input  logic [Lanes-1:0][LogWidth-1:0]         weigh_log_i,
+    output logic [Lanes*StateWidth-1:0]           weigh_state_o,
+    input  logic [Lanes*LogWidth-1:0]             weigh_log_i,
     // the set, as it is written: slots of each lane
     output logic                                   kept_valid_o,
     output logic        [SlotWidth-1:0]            kept_slot_o,
-    output logic [Lanes-1:0][StateWidth-1:0]       kept_state_o,
+    output logic [Lanes*StateWidth-1:0]           kept_state_o,
     // estimates, AXI4-Stream
     output logic                                   est_valid_o,
     input  logic                                   est_ready_i,
     output logic                                   est_last_o,
-    output logic        [Dims-1:0][MeanWidth-1:0]  est_mean_o,
+    output logic        [Dims*MeanWidth-1:0]       est_mean_o,
     output logic        [SumWidth-1:0]             est_sum_o,
     output logic signed [ScaleWidth-1:0]           est_scale_o,
     output logic        [At:0]                     est_accepted_o
@@ -113,11 +113,11 @@ module mote_imh #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) issues_q <= 1'b0;
     else if (begins) issues_q <= 1'b1;
-    else if (issue_q + count_t'(1) == total_q) issues_q <= 1'b0;
+    else if (issue_q + (At + 1)'(1) == total_q) issues_q <= 1'b0;
   end
   always_ff @(posedge clk_i) begin
     if (begins) issue_q <= '0;
-    else if (issues_q) issue_q <= issue_q + count_t'(1);
+    else if (issues_q) issue_q <= issue_q + (At + 1)'(1);
   end
 
   // ---- parents
@@ -139,7 +139,7 @@ module mote_imh #(
   // ---- the model's arithmetic, and the chains, whose words begin 5 cycles before the log weight is there
   logic weighed_valid, decides_q, starts, keeps;
   logic [Lanes-1:0] accepts;
-  logic [Lanes-1:0][StateWidth-1:0] decided_state, current;
+  logic [Lanes*StateWidth-1:0] decided_state, current;
   assign propose_valid_o = valid4;
   assign weigh_state_o = propose_state_i;
   mote_valid #(.Depth(ProposeLatency)) u_weigh_valid (
@@ -151,35 +151,35 @@ module mote_imh #(
   for (genvar l = 0; l < Lanes; l++) begin : gen_lane
     for (genvar w = 0; w < DrawWords; w++) begin : gen_words
       mote_words #(.Seed(Seed), .Stream(Stream + Streams * l + 2 + w)) u_words (
-          .clk_i, .rst_ni, .advance_i(valid4), .word_o(propose_words_o[l][w]));
+          .clk_i, .rst_ni, .advance_i(valid4), .word_o(propose_words_o[(l*DrawWords+w)*32+:32]));
     end
     mote_delay #(.Width(StateWidth), .Depth(WeighLatency + 1)) u_decided_state (
-        .clk_i, .d_i(propose_state_i[l]), .d_o(decided_state[l]));
+        .clk_i, .d_i(propose_state_i[l*StateWidth+:StateWidth]), .d_o(decided_state[l*StateWidth+:StateWidth]));
     mote_chain #(
         .LogWidth(LogWidth), .StateWidth(StateWidth), .Seed(Seed), .Stream(Stream + Streams * l + 1),
         .Log2Table(Log2Table)
     ) u_chain (
         .clk_i, .rst_ni,
         .word_i(valid_log),
-        .log_weight_i($signed(weigh_log_i[l])),
+        .log_weight_i($signed(weigh_log_i[l*LogWidth+:LogWidth])),
         .decides_i(decides_q),
         .starts_i(starts),
-        .state_i(decided_state[l]),
+        .state_i(decided_state[l*StateWidth+:StateWidth]),
         .accepts_o(accepts[l]),
-        .state_o(kept_state_o[l]),
-        .current_o(current[l]));
+        .state_o(kept_state_o[l*StateWidth+:StateWidth]),
+        .current_o(current[l*StateWidth+:StateWidth]));
   end
 
   count_t decided_q, accepted_q, moves;
   always_comb begin
     moves = '0;
-    for (int l = 0; l < Lanes; l++) moves += count_t'(accepts[l]);
+    for (int l = 0; l < Lanes; l++) moves = moves + (At + 1)'(accepts[l]);
   end
   logic [SlotWidth-1:0] slot_q;
   logic kept_q, kept_first_q;
   assign starts = decided_q == '0;
   assign keeps = decided_q >= drop_q;
-  assign decided_last = decides_q && decided_q + count_t'(1) == total_q;
+  assign decided_last = decides_q && decided_q + (At + 1)'(1) == total_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       decides_q <= 1'b0;
@@ -190,7 +190,7 @@ module mote_imh #(
       decides_q <= weighed_valid;
       kept_q    <= kept_valid_o;
       if (decided_last) bank_q <= ~bank_q;
-      if (decides_q) decided_q <= decided_last ? '0 : decided_q + count_t'(1);
+      if (decides_q) decided_q <= decided_last ? '0 : decided_q + (At + 1)'(1);
     end
   end
   always_ff @(posedge clk_i) begin
@@ -205,8 +205,8 @@ module mote_imh #(
   // ---- inference
   logic weight_valid, weight_first, weighed_first_q;
   logic [2:0] weight_rise;
-  logic [Lanes-1:0][WeightWidth-1:0] weight;
-  logic [Lanes-1:0][StateWidth-1:0] inferred_state;
+  logic [Lanes*WeightWidth-1:0] weight;
+  logic [Lanes*StateWidth-1:0] inferred_state;
   mote_delay #(.Width(Lanes * StateWidth), .Depth(4)) u_inferred_state (
       .clk_i, .d_i(decided_state), .d_o(inferred_state));
   logic signed [ScaleWidth-1:0] scale, unused_scale;
@@ -217,12 +217,12 @@ module mote_imh #(
       weighed_q <= '0;
       summed_q  <= '0;
     end else begin
-      if (weighed_valid) weighed_q <= weighed_q + count_t'(1) == total_q ? '0 : weighed_q + count_t'(1);
-      if (weight_valid) summed_q <= summed_last ? '0 : summed_q + count_t'(1);
+      if (weighed_valid) weighed_q <= weighed_q + (At + 1)'(1) == total_q ? '0 : weighed_q + (At + 1)'(1);
+      if (weight_valid) summed_q <= summed_last ? '0 : summed_q + (At + 1)'(1);
     end
   end
   assign weighed_first_q = weighed_q == '0;
-  assign summed_last = weight_valid && summed_q + count_t'(1) == total_q;
+  assign summed_last = weight_valid && summed_q + (At + 1)'(1) == total_q;
   mote_weight #(.Lanes(Lanes), .LogWidth(LogWidth), .Width(WeightWidth), .Table(Exp2Table)) u_weight (
       .clk_i, .rst_ni,
       .valid_i(weighed_valid),

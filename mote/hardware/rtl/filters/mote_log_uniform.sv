@@ -18,10 +18,8 @@ module mote_log_uniform #(
   initial $readmemh(Table, table_rom);
 
   function automatic logic [5:0] leading_zeros(input logic [31:0] word);
-    logic [5:0] zeros;
-    zeros = 6'd32;
-    for (int i = 0; i < 32; i++) if (word[i]) zeros = 6'(31 - i);
-    return zeros;
+    leading_zeros = 6'd32;
+    for (int i = 0; i < 32; i++) if (word[i]) leading_zeros = 6'(31 - i);
   endfunction
 
   logic [5:0]  zeros_q, zeros2_q, zeros3_q, zeros4_q;

@@ -29,7 +29,7 @@ module mote_offspring #(
     input  logic        [At:0]           n_i,
     // weights, slot after slot
     input  logic                         write_i,
-    input  logic [Lanes-1:0][Width-1:0]  weight_i,
+    input  logic [Lanes*Width-1:0]       weight_i,
     input  logic signed [ScaleWidth-1:0] scale_i,
     // the end of a step
     input  logic                         total_valid_i,
@@ -39,7 +39,7 @@ module mote_offspring #(
     output logic                         valid_o,
     input  logic                         pop_i,
     output logic [RowWidth-1:0]          row_o,
-    output logic [Many-1:0][At:0]        ends_o
+    output logic [Many*(At+1)-1:0]       ends_o
 );
   localparam int unsigned Levels = $clog2(Many);
   localparam int unsigned Latency = 8 + Levels;  // from reading a row to its ends
@@ -53,35 +53,35 @@ module mote_offspring #(
   // ---- memory of weights, even and odd slots, two banks
   logic [At:0] written_q;
   logic bank_q, last_write;
-  assign last_write = write_i && written_q + count_t'(1) == n_i;
+  assign last_write = write_i && written_q + (At + 1)'(1) == n_i;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       written_q <= '0;
       bank_q <= 1'b0;
     end else begin
-      if (write_i) written_q <= last_write ? '0 : written_q + count_t'(1);
+      if (write_i) written_q <= last_write ? '0 : written_q + (At + 1)'(1);
       if (last_write) bank_q <= ~bank_q;
     end
   end
   logic signed [ScaleWidth-1:0] last_scale_q;
   row_t row_q;
-  logic [1:0][Lanes-1:0][WordWidth-1:0] word;
+  logic [Many*WordWidth-1:0] word;
   for (genvar h = 0; h < 2; h++) begin : gen_half
     for (genvar l = 0; l < Lanes; l++) begin : gen_lane
       mote_ram #(.Width(WordWidth), .Words(2 << RowWidth)) u_weights (
           .clk_i,
           .write_i(write_i && written_q[0] == 1'(h)),
           .write_at_i({bank_q, written_q[RowWidth:1]}),
-          .write_word_i({scale_i, weight_i[l]}),
+          .write_word_i({scale_i, weight_i[l*Width+:Width]}),
           .read_at_i({~bank_q, row_q}),
-          .read_word_o(word[h][l]));
+          .read_word_o(word[(h*Lanes+l)*WordWidth+:WordWidth]));
     end
   end
 
   // ---- reading, from the cycle after the last weight on, as long as the queue has room
   logic reads_q, reads, last_row, left_out, push, arrives;
   logic [RoomWidth-1:0] room_q;
-  assign last_row = row_q == row_t'((n_i - count_t'(1)) >> 1);
+  assign last_row = row_q == RowWidth'((n_i - (At + 1)'(1)) >> 1);
   assign reads = reads_q && room_q != '0;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -100,7 +100,7 @@ module mote_offspring #(
     if (last_write) begin
       row_q <= '0;
       last_scale_q <= scale_i;
-    end else if (reads) row_q <= row_q + row_t'(1);
+    end else if (reads) row_q <= row_q + RowWidth'(1);
   end
 
   // ---- the factor N / T
@@ -127,50 +127,61 @@ module mote_offspring #(
                                                input logic signed [ScaleWidth-1:0] last);
     logic [ScaleWidth-1:0] by;
     by = last - $signed(stored[WordWidth-1:Width]);
-    return by > ScaleWidth'(7) ? '0 : stored[Width-1:0] >> {by[2:0], 3'b0};
+    lowered = by > ScaleWidth'(7) ? '0 : stored[Width-1:0] >> {by[2:0], 3'b0};
   endfunction
-  logic [Levels:0][Many-1:0][SumWidth-1:0] sum_q;
+  logic [(Levels+1)*Many*SumWidth-1:0] sums_q;  // level after level
+  logic [Many*42-1:0] place_q;
   logic [SumWidth-1:0] base_q;
-  logic [Many-1:0][SumWidth-1:0] cum_q, coarse_q;
-  logic [Many-1:0][16:0] share_q;
   logic sums;
-  logic [Many-1:0][40:0] product_q;
-  logic [Many-1:0][41:0] place_q;
   mote_valid #(.Depth(3 + Levels)) u_sums (.clk_i, .rst_ni, .valid_i(reads), .valid_o(sums));
-  always_ff @(posedge clk_i) begin
-    for (int i = 0; i < Many; i++) begin
-      sum_q[0][i] <= SumWidth'(lowered(word[i/Lanes][i%Lanes], last_scale_q));
-      for (int k = 0; k < Levels; k++)
-        sum_q[k+1][i] <= sum_q[k][i] + (i >= (1 << k) ? sum_q[k][i-(1<<k)] : '0);
-      cum_q[i]     <= base_q + sum_q[Levels][i];
-      coarse_q[i]  <= cum_q[i] << {zeros[ZerosWidth-1:3], 3'b0};
-      share_q[i]   <= 17'((coarse_q[i] << zeros[2:0]) >> (SumWidth - 17));
-      product_q[i] <= 41'(share_q[i]) * 41'(factor_q);
-      place_q[i]   <= 42'(product_q[i]) + 42'({uniform_q, {(Frac - 24) {1'b0}}});
+  for (genvar i = 0; i < Many; i++) begin : gen_particle
+    logic [SumWidth-1:0] cum_q, coarse_q;
+    logic [16:0] share_q;
+    logic [40:0] product_q;
+    always_ff @(posedge clk_i) begin
+      sums_q[i*SumWidth+:SumWidth] <= SumWidth'(lowered(word[i*WordWidth+:WordWidth], last_scale_q));
+      cum_q     <= base_q + sums_q[(Levels*Many+i)*SumWidth+:SumWidth];
+      coarse_q  <= cum_q << {zeros[ZerosWidth-1:3], 3'b0};
+      share_q   <= 17'((coarse_q << zeros[2:0]) >> (SumWidth - 17));
+      product_q <= 41'(share_q) * 41'(factor_q);
+      place_q[i*42+:42] <= 42'(product_q) + 42'({uniform_q, {(Frac - 24) {1'b0}}});
     end
+    for (genvar k = 0; k < Levels; k++) begin : gen_level
+      localparam int unsigned Here = (k * Many + i) * SumWidth;
+      if (i >= (1 << k)) begin : gen_sum
+        always_ff @(posedge clk_i)
+          sums_q[Here+Many*SumWidth+:SumWidth] <= sums_q[Here+:SumWidth] + sums_q[Here-(SumWidth<<k)+:SumWidth];
+      end else begin : gen_copy
+        always_ff @(posedge clk_i) sums_q[Here+Many*SumWidth+:SumWidth] <= sums_q[Here+:SumWidth];
+      end
+    end
+  end
+  always_ff @(posedge clk_i) begin
     if (last_write) base_q <= '0;
-    else if (sums) base_q <= base_q + sum_q[Levels][Many-1];
+    else if (sums) base_q <= base_q + sums_q[(Levels+1)*Many*SumWidth-1-:SumWidth];
   end
 
   // ---- ends; rows without children are left out
   logic last_ends, lone_ends;
   row_t row_ends;
   count_t before_q;
-  logic [Many-1:0][At:0] ends;
+  logic [Many*(At+1)-1:0] ends;
+  count_t row_end;
+  assign row_end = ends[Many*(At+1)-1-:At+1];
   mote_valid #(.Depth(Latency)) u_arrives (.clk_i, .rst_ni, .valid_i(reads), .valid_o(arrives));
   mote_delay #(.Width(RowWidth + 2), .Depth(Latency)) u_last (
       .clk_i, .d_i({last_row, last_row && n_i[0], row_q}), .d_o({last_ends, lone_ends, row_ends}));
   always_comb begin
     for (int i = 0; i < Many; i++) begin
-      ends[i] = place_q[i][Frac+:At+1];
-      if (last_ends && (i == Many - 1 || lone_ends && i >= Lanes - 1)) ends[i] = all_n;
+      ends[i*(At+1)+:At+1] = place_q[i*42+Frac+:At+1];
+      if (last_ends && (i == Many - 1 || lone_ends && i >= Lanes - 1)) ends[i*(At+1)+:At+1] = all_n;
     end
   end
-  assign left_out = arrives && ends[Many-1] == before_q;
-  assign push = arrives && ends[Many-1] != before_q;
+  assign left_out = arrives && row_end == before_q;
+  assign push = arrives && row_end != before_q;
   always_ff @(posedge clk_i) begin
     if (last_write) before_q <= '0;
-    else if (arrives) before_q <= ends[Many-1];
+    else if (arrives) before_q <= row_end;
   end
   logic no_row, unused_full;
   mote_fifo #(.Width(Many * (At + 1) + RowWidth), .Depth(Rows)) u_rows (

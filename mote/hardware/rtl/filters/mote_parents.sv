@@ -24,39 +24,39 @@ module mote_parents #(
     input  logic                        advance_i,
     input  logic [CountWidth-1:0]       n_i,
     input  logic                        bank_i,
-    output logic [Lanes-1:0][Width-1:0] state_o,
+    output logic [Lanes*Width-1:0]      state_o,
     input  logic                        write_i,
     input  logic [SlotWidth-1:0]        write_slot_i,
-    input  logic [Lanes-1:0][Width-1:0] write_state_i
+    input  logic [Lanes*Width-1:0]      write_state_i
 );
   typedef logic [LaneWidth-1:0] lane_t;
   localparam int unsigned ProductWidth = CountWidth + 24;
 
   // ---- slots
-  logic [Lanes-1:0][31:0] word;
-  logic [Lanes-1:0][SlotWidth-1:0] slot_q;
-  lane_t [Lanes-1:0] from;  // the chain that each lane reads from
+  logic [Lanes*32-1:0] word;
+  logic [Lanes*SlotWidth-1:0] slot_q;
+  logic [Lanes*LaneWidth-1:0] from;  // the chain that each lane reads from
   for (genvar l = 0; l < Lanes; l++) begin : gen_slot
     mote_words #(.Seed(Seed), .Stream(Stream + StreamStep * l)) u_words (
-        .clk_i, .rst_ni, .advance_i, .word_o(word[l]));
+        .clk_i, .rst_ni, .advance_i, .word_o(word[l*32+:32]));
     logic [23:0] uniform_q;
     always_ff @(posedge clk_i) begin
-      uniform_q <= word[l][31:8];
-      slot_q[l] <= SlotWidth'(ProductWidth'(uniform_q) * ProductWidth'(n_i) >> 24);
+      uniform_q <= word[l*32+8+:24];
+      slot_q[l*SlotWidth+:SlotWidth] <= SlotWidth'(ProductWidth'(uniform_q) * ProductWidth'(n_i) >> 24);
     end
     lane_t turn;
-    assign turn = Choice == 0 || Lanes == 1 ? '0 : Choice == 1 ? word[0][7-:LaneWidth] : word[l][7-:LaneWidth];
+    assign turn = Choice == 0 || Lanes == 1 ? '0 : Choice == 1 ? word[7-:LaneWidth] : word[l*32+7-:LaneWidth];
     mote_delay #(.Width(LaneWidth), .Depth(2)) u_from (
-        .clk_i, .d_i(Choice == 2 ? turn : lane_t'(l) + turn), .d_o(from[l]));
+        .clk_i, .d_i(Choice == 2 ? turn : LaneWidth'(l) + turn), .d_o(from[l*LaneWidth+:LaneWidth]));
     logic unused_word;
-    assign unused_word = ^word[l][7:0];
+    assign unused_word = ^word[l*32+:8];
   end
 
   // ---- memories: one a chain, in turn with the lanes; or a copy of all for every lane
   if (Choice == 2) begin : gen_shared
-    logic [Lanes-1:0][SlotWidth:0] slot;
+    logic [Lanes*(SlotWidth+1)-1:0] slot;
     for (genvar l = 0; l < Lanes; l++) begin : gen_lane
-      assign slot[l] = {bank_i, slot_q[l]};
+      assign slot[l*(SlotWidth+1)+:SlotWidth+1] = {bank_i, slot_q[l*SlotWidth+:SlotWidth]};
     end
     mote_set #(.Lanes(Lanes), .Width(Width), .SlotWidth(SlotWidth + 1)) u_set (
         .clk_i,
@@ -67,19 +67,19 @@ module mote_parents #(
         .read_lane_i(from),
         .read_state_o(state_o));
   end else begin : gen_turns
-    logic [Lanes-1:0][Width-1:0] read;
+    logic [Lanes*Width-1:0] read;
     for (genvar l = 0; l < Lanes; l++) begin : gen_lane
       lane_t reader, from4;
-      assign reader = Lanes == 1 ? '0 : lane_t'(l) - from[0];
+      assign reader = Lanes == 1 ? '0 : LaneWidth'(l) - from[0+:LaneWidth];
       mote_ram #(.Width(Width), .Words(2 << SlotWidth)) u_set (
           .clk_i,
           .write_i,
           .write_at_i({~bank_i, write_slot_i}),
-          .write_word_i(write_state_i[l]),
-          .read_at_i({bank_i, slot_q[reader]}),
-          .read_word_o(read[l]));
-      mote_delay #(.Width(LaneWidth), .Depth(2)) u_from (.clk_i, .d_i(from[l]), .d_o(from4));
-      assign state_o[l] = read[from4];
+          .write_word_i(write_state_i[l*Width+:Width]),
+          .read_at_i({bank_i, slot_q[reader*SlotWidth+:SlotWidth]}),
+          .read_word_o(read[l*Width+:Width]));
+      mote_delay #(.Width(LaneWidth), .Depth(2)) u_from (.clk_i, .d_i(from[l*LaneWidth+:LaneWidth]), .d_o(from4));
+      assign state_o[l*Width+:Width] = read[from4*Width+:Width];
     end
   end
 endmodule

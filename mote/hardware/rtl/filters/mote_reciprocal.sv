@@ -17,7 +17,7 @@ module mote_reciprocal #(
 );
   // Entry i: floor(2^26 / (2^8 + i)) - 1, and how far the next one is below it.
   function automatic logic [17:0] entry(input int unsigned i);
-    return 18'(32'd67108864 / (32'd256 + i) - 32'd1);
+    entry = 18'(32'd67108864 / (32'd256 + i) - 32'd1);
   endfunction
   logic [27:0] table_rom[256];
   initial for (int i = 0; i < 256; i++) table_rom[i] = {entry(i), 10'(entry(i) - entry(i + 1))};

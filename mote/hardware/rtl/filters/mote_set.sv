@@ -12,24 +12,24 @@ module mote_set #(
     input  logic                            clk_i,
     input  logic                            write_i,
     input  logic [SlotWidth-1:0]            write_slot_i,
-    input  logic [Lanes-1:0][Width-1:0]     write_state_i,
-    input  logic [Lanes-1:0][SlotWidth-1:0] read_slot_i,
-    input  logic [Lanes-1:0][LaneWidth-1:0] read_lane_i,
-    output logic [Lanes-1:0][Width-1:0]     read_state_o
+    input  logic [Lanes*Width-1:0]     write_state_i,
+    input  logic [Lanes*SlotWidth-1:0] read_slot_i,
+    input  logic [Lanes*LaneWidth-1:0] read_lane_i,
+    output logic [Lanes*Width-1:0]     read_state_o
 );
   for (genvar l = 0; l < Lanes; l++) begin : gen_reader
-    logic [Lanes-1:0][Width-1:0] read;
+    logic [Lanes*Width-1:0] read;
     logic [LaneWidth-1:0] from;
     for (genvar m = 0; m < Lanes; m++) begin : gen_memory
       mote_ram #(.Width(Width), .Words(1 << SlotWidth)) u_states (
           .clk_i,
           .write_i,
           .write_at_i(write_slot_i),
-          .write_word_i(write_state_i[m]),
-          .read_at_i(read_slot_i[l]),
-          .read_word_o(read[m]));
+          .write_word_i(write_state_i[m*Width+:Width]),
+          .read_at_i(read_slot_i[l*SlotWidth+:SlotWidth]),
+          .read_word_o(read[m*Width+:Width]));
     end
-    mote_delay #(.Width(LaneWidth), .Depth(2)) u_from (.clk_i, .d_i(read_lane_i[l]), .d_o(from));
-    assign read_state_o[l] = read[from];
+    mote_delay #(.Width(LaneWidth), .Depth(2)) u_from (.clk_i, .d_i(read_lane_i[l*LaneWidth+:LaneWidth]), .d_o(from));
+    assign read_state_o[l*Width+:Width] = read[from*Width+:Width];
   end
 endmodule

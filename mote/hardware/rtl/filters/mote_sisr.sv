@@ -52,21 +52,21 @@ module mote_sisr #(
     output logic        [15:0]                     t_o,
     output logic        [ObsWidth-1:0]             obs_o,
     output logic                                   propose_valid_o,
-    output logic [Lanes-1:0][StateWidth-1:0]       propose_state_o,
-    output logic [Lanes-1:0][DrawWords-1:0][31:0] propose_words_o,
-    input  logic [Lanes-1:0][StateWidth-1:0]       propose_state_i,
+    output logic [Lanes*StateWidth-1:0]           propose_state_o,
+    output logic [Lanes*DrawWords*32-1:0]         propose_words_o,
+    input  logic [Lanes*StateWidth-1:0]           propose_state_i,
     output logic                                   weigh_valid_o,
-    output logic [Lanes-1:0][StateWidth-1:0]       weigh_state_o,
-    input  logic [Lanes-1:0][LogWidth-1:0]         weigh_log_i,
+    output logic [Lanes*StateWidth-1:0]           weigh_state_o,
+    input  logic [Lanes*LogWidth-1:0]             weigh_log_i,
     // the set before resampling, as it is written: slots of each lane
     output logic                                   kept_valid_o,
     output logic        [SlotWidth-1:0]            kept_slot_o,
-    output logic [Lanes-1:0][StateWidth-1:0]       kept_state_o,
+    output logic [Lanes*StateWidth-1:0]           kept_state_o,
     // estimates, AXI4-Stream
     output logic                                   est_valid_o,
     input  logic                                   est_ready_i,
     output logic                                   est_last_o,
-    output logic        [Dims-1:0][MeanWidth-1:0]  est_mean_o,
+    output logic        [Dims*MeanWidth-1:0]       est_mean_o,
     output logic        [SumWidth-1:0]             est_sum_o,
     output logic signed [ScaleWidth-1:0]           est_scale_o
 );
@@ -77,7 +77,7 @@ module mote_sisr #(
   localparam int unsigned LaneWidth = Lanes > 1 ? LaneBits : 1;
   count_t n_q, issued_q, weighed_q, per_lane_n;
   logic starts, begins, weighed_valid, weighed_last, issues, first_q, parent_valid, unused_none_left;
-  logic [Lanes-1:0][At-1:0] parent;
+  logic [Lanes*At-1:0] parent;
   mote_steps #(.ObsWidth(ObsWidth)) u_steps (
       .clk_i, .rst_ni, .start_i, .steps_i, .busy_o, .starts_o(starts),
       .obs_valid_i, .obs_ready_o, .obs_i,
@@ -98,19 +98,19 @@ module mote_sisr #(
       first_q  <= t_o == '0;
       issued_q <= '0;
     end else if (issues) begin
-      issued_q <= issued_q + count_t'(1);
+      issued_q <= issued_q + (At + 1)'(1);
     end
   end
 
   // ---- particles
   logic [SlotWidth-1:0] slot_q;
   logic bank_q;
-  logic [Lanes-1:0][SlotWidth:0] parent_slot_q;
-  logic [Lanes-1:0][LaneWidth-1:0] parent_lane_q;
+  logic [Lanes*(SlotWidth+1)-1:0] parent_slot_q;
+  logic [Lanes*LaneWidth-1:0] parent_lane_q;
   always_ff @(posedge clk_i) begin
     for (int l = 0; l < Lanes; l++) begin
-      parent_slot_q[l] <= {~bank_q, parent[l][At-1-:SlotWidth]};
-      parent_lane_q[l] <= Lanes > 1 ? parent[l][LaneWidth-1:0] : '0;
+      parent_slot_q[l*(SlotWidth+1)+:SlotWidth+1] <= {~bank_q, parent[(l+1)*At-1-:SlotWidth]};
+      parent_lane_q[l*LaneWidth+:LaneWidth] <= Lanes > 1 ? parent[l*At+:LaneWidth] : '0;
     end
   end
   mote_set #(.Lanes(Lanes), .Width(StateWidth), .SlotWidth(SlotWidth + 1)) u_set (
@@ -127,7 +127,7 @@ module mote_sisr #(
   for (genvar l = 0; l < Lanes; l++) begin : gen_lane
     for (genvar w = 0; w < DrawWords; w++) begin : gen_words
       mote_words #(.Seed(Seed), .Stream(Stream + 1 + DrawWords * l + w)) u_words (
-          .clk_i, .rst_ni, .advance_i(propose_valid_o), .word_o(propose_words_o[l][w]));
+          .clk_i, .rst_ni, .advance_i(propose_valid_o), .word_o(propose_words_o[(l*DrawWords+w)*32+:32]));
     end
   end
   mote_valid #(.Depth(ProposeLatency)) u_weigh_valid (
@@ -137,16 +137,16 @@ module mote_sisr #(
       .clk_i, .rst_ni, .valid_i(weigh_valid_o), .valid_o(weighed_valid));
   mote_delay #(.Width(Lanes * StateWidth), .Depth(WeighLatency + 5)) u_state (
       .clk_i, .d_i(propose_state_i), .d_o(kept_state_o));
-  assign weighed_last = weighed_valid && weighed_q + count_t'(1) == n_q;
+  assign weighed_last = weighed_valid && weighed_q + (At + 1)'(1) == n_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) weighed_q <= '0;
-    else if (weighed_valid) weighed_q <= weighed_last ? '0 : weighed_q + count_t'(1);
+    else if (weighed_valid) weighed_q <= weighed_last ? '0 : weighed_q + (At + 1)'(1);
   end
 
   // ---- weights
   logic weight_first, kept_last;
   logic [2:0] weight_rise;
-  logic [Lanes-1:0][WeightWidth-1:0] weight;
+  logic [Lanes*WeightWidth-1:0] weight;
   logic signed [ScaleWidth-1:0] scale, scale_early;
   mote_weight #(.Lanes(Lanes), .LogWidth(LogWidth), .Width(WeightWidth), .Table(Exp2Table)) u_weight (
       .clk_i, .rst_ni,
@@ -160,7 +160,7 @@ module mote_sisr #(
       .scale_o(scale),
       .scale_early_o(scale_early));
   assign kept_slot_o = slot_q;
-  assign kept_last = kept_valid_o && count_t'(slot_q) + count_t'(1) == n_q;
+  assign kept_last = kept_valid_o && (At + 1)'(slot_q) + (At + 1)'(1) == n_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       slot_q <= '0;
@@ -210,7 +210,7 @@ module mote_sisr #(
       else drops_q <= drops;
     end
     logic [RowWidth-1:0] row;
-    logic [2*Lanes-1:0][At:0] ends;
+    logic [2*Lanes*(At+1)-1:0] ends;
     assign unused_scale = ^scale_early;
     mote_offspring #(.Lanes(Lanes), .At(At), .Width(WeightWidth), .ScaleWidth(ScaleWidth)) u_offspring (
         .clk_i, .rst_ni,

@@ -49,7 +49,7 @@ module mote_sisr_plain #(
     output logic        [ObsWidth-1:0]             obs_o,
     output logic                                   propose_valid_o,
     output logic        [StateWidth-1:0]           propose_state_o,
-    output logic        [DrawWords-1:0][31:0]      propose_words_o,
+    output logic        [DrawWords*32-1:0]         propose_words_o,
     input  logic        [StateWidth-1:0]           propose_state_i,
     output logic                                   weigh_valid_o,
     output logic        [StateWidth-1:0]           weigh_state_o,
@@ -62,7 +62,7 @@ module mote_sisr_plain #(
     output logic                                   est_valid_o,
     input  logic                                   est_ready_i,
     output logic                                   est_last_o,
-    output logic        [Dims-1:0][MeanWidth-1:0]  est_mean_o,
+    output logic        [Dims*MeanWidth-1:0]       est_mean_o,
     output logic        [SumWidth-1:0]             est_sum_o,
     output logic signed [ScaleWidth-1:0]           est_scale_o
 );
@@ -112,12 +112,12 @@ module mote_sisr_plain #(
   assign propose_state_o = read_state;
   for (genvar w = 0; w < DrawWords; w++) begin : gen_words
     mote_words #(.Seed(Seed), .Stream(Stream + 1 + w)) u_words (
-        .clk_i, .rst_ni, .advance_i(propose_valid_o), .word_o(propose_words_o[w]));
+        .clk_i, .rst_ni, .advance_i(propose_valid_o), .word_o(propose_words_o[w*32+:32]));
   end
   mote_valid #(.Depth(ProposeLatency)) u_proposed (.clk_i, .rst_ni, .valid_i(propose_valid_o), .valid_o(proposed));
   assign kept_valid_o = proposed;
   assign kept_state_o = propose_state_i;
-  assign state_last = proposed && count_t'(kept_slot_o) + count_t'(1) == n_q;
+  assign state_last = proposed && (At + 1)'(kept_slot_o) + (At + 1)'(1) == n_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) kept_slot_o <= '0;
     else if (proposed) kept_slot_o <= state_last ? '0 : kept_slot_o + At'(1);
@@ -150,10 +150,10 @@ module mote_sisr_plain #(
         .index_o(weigh_turn));
     mote_valid #(.Depth(2)) u_weigh_valid (.clk_i, .rst_ni, .valid_i(weighs), .valid_o(weigh_valid_o));
     assign weigh_state_o = read_state;
-    assign log_last = logged && log_q + count_t'(1) == n_q;
+    assign log_last = logged && log_q + (At + 1)'(1) == n_q;
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) log_q <= '0;
-      else if (logged) log_q <= log_last ? '0 : log_q + count_t'(1);
+      else if (logged) log_q <= log_last ? '0 : log_q + (At + 1)'(1);
     end
     mote_ram #(.Width(LogWidth), .Words(1 << At)) u_logs (
         .clk_i,
@@ -179,13 +179,13 @@ module mote_sisr_plain #(
   logic [SumWidth-1:0] total;
   count_t weighed_q, summed_q;
   assign log_first = weighed_q == '0;
-  assign weighed_last = log_valid && weighed_q + count_t'(1) == n_q;
-  assign weight_last = weight_valid && summed_q + count_t'(1) == n_q;
+  assign weighed_last = log_valid && weighed_q + (At + 1)'(1) == n_q;
+  assign weight_last = weight_valid && summed_q + (At + 1)'(1) == n_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) {weighed_q, summed_q} <= '0;
     else begin
-      if (log_valid) weighed_q <= weighed_last ? '0 : weighed_q + count_t'(1);
-      if (weight_valid) summed_q <= weight_last ? '0 : summed_q + count_t'(1);
+      if (log_valid) weighed_q <= weighed_last ? '0 : weighed_q + (At + 1)'(1);
+      if (weight_valid) summed_q <= weight_last ? '0 : summed_q + (At + 1)'(1);
     end
   end
   mote_weight #(.LogWidth(LogWidth), .Width(WeightWidth), .Table(Exp2Table)) u_weight (

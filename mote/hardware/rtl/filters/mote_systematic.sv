@@ -64,7 +64,7 @@ module mote_systematic #(
     end
   end
   row_t row_q;
-  logic [1:0][WordWidth-1:0] word;
+  logic [2*WordWidth-1:0] word;
   for (genvar h = 0; h < 2; h++) begin : gen_half
     mote_ram #(.Width(WordWidth), .Words(1 << At)) u_weights (
         .clk_i,
@@ -72,7 +72,7 @@ module mote_systematic #(
         .write_at_i({bank_q, written_q[At-1:1]}),
         .write_word_i({scale_i, weight_i}),
         .read_at_i({read_bank_q, row_q[At-2:0]}),
-        .read_word_o(word[h]));
+        .read_word_o(word[h*WordWidth+:WordWidth]));
   end
 
   // ---- reading, as far as it is written and the queue has room
@@ -81,7 +81,7 @@ module mote_systematic #(
   logic signed [ScaleWidth-1:0] last_scale_q;
   logic [At:0] needed;
   assign needed = {row_q, 1'b1};
-  assign last_row = row_q == row_t'((n_i - (At + 1)'(1)) >> 1);
+  assign last_row = row_q == At'((n_i - (At + 1)'(1)) >> 1);
   assign reads = reads_q && room_q != '0 && (all_q || needed < written_q);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -100,7 +100,7 @@ module mote_systematic #(
       row_q <= '0;
       read_bank_q <= bank_q;
       last_scale_q <= last_scale_i;
-    end else if (reads) row_q <= row_q + row_t'(1);
+    end else if (reads) row_q <= row_q + At'(1);
   end
   logic read7, last6, lone6;
   mote_valid #(.Depth(7)) u_read (.clk_i, .rst_ni, .valid_i(reads), .valid_o(read7));
@@ -108,8 +108,7 @@ module mote_systematic #(
       .clk_i, .d_i({last_row, last_row && n_i[0]}), .d_o({last6, lone6}));
 
   // ---- lowered to the last scale, times N, summed
-  logic [1:0][Width-1:0] lowered_q;
-  logic [1:0][SumWidth:0] product_q, product2_q;
+  logic [SumWidth:0] product2[2];
   logic [SumWidth+1:0] both_q;
   logic [SumWidth:0] even_q;
   cum_t base_q, even_sum_q, odd_sum_q;
@@ -119,20 +118,25 @@ module mote_systematic #(
                                                input logic signed [ScaleWidth-1:0] last);
     logic [ScaleWidth-1:0] by;
     by = last - $signed(stored[WordWidth-1:Width]);
-    return by > ScaleWidth'(7) ? '0 : stored[Width-1:0] >> {by[2:0], 3'b0};
+    lowered = by > ScaleWidth'(7) ? '0 : stored[Width-1:0] >> {by[2:0], 3'b0};
   endfunction
-  always_ff @(posedge clk_i) begin
-    for (int h = 0; h < 2; h++) begin
-      lowered_q[h]  <= lowered(word[h], last_scale_q);
-      product_q[h]  <= (SumWidth + 1)'(lowered_q[h]) * (SumWidth + 1)'(n_i);
-      product2_q[h] <= product_q[h];
+  for (genvar h = 0; h < 2; h++) begin : gen_product
+    logic [Width-1:0] lowered_q;
+    logic [SumWidth:0] product_q, product2_q;
+    always_ff @(posedge clk_i) begin
+      lowered_q  <= lowered(word[h*WordWidth+:WordWidth], last_scale_q);
+      product_q  <= (SumWidth + 1)'(lowered_q) * (SumWidth + 1)'(n_i);
+      product2_q <= product_q;
     end
-    both_q <= (SumWidth + 2)'(product2_q[0]) + (SumWidth + 2)'(product2_q[1]);
-    even_q <= product2_q[0];
+    assign product2[h] = product2_q;
+  end
+  always_ff @(posedge clk_i) begin
+    both_q <= (SumWidth + 2)'(product2[0]) + (SumWidth + 2)'(product2[1]);
+    even_q <= product2[0];
     if (scale_known_i) base_q <= '0;
-    else if (read6) base_q <= base_q + cum_t'(both_q);
-    even_sum_q <= lone6 ? '1 : base_q + cum_t'(even_q);
-    odd_sum_q  <= last6 ? '1 : base_q + cum_t'(both_q);
+    else if (read6) base_q <= base_q + CumWidth'(both_q);
+    even_sum_q <= lone6 ? '1 : base_q + CumWidth'(even_q);
+    odd_sum_q  <= last6 ? '1 : base_q + CumWidth'(both_q);
   end
   cum_t even_sum, odd_sum;
   logic no_row, unused_full;
@@ -172,18 +176,18 @@ module mote_systematic #(
     end
     start_q <= SumWidth'((SumWidth + 24)'(total_q) * (SumWidth + 24)'(uniform_q) >> 24);
     if (total_valid_q[1]) begin
-      t0_q   <= cum_t'(start_q);
-      t1_q   <= cum_t'(start_q) + cum_t'(total_q);
-      t2_q   <= cum_t'(start_q) + (cum_t'(total_q) << 1);
+      t0_q   <= CumWidth'(start_q);
+      t1_q   <= CumWidth'(start_q) + CumWidth'(total_q);
+      t2_q   <= CumWidth'(start_q) + (CumWidth'(total_q) << 1);
       left_q <= n_i;
     end else if (goes && one) begin
       t0_q   <= two ? t2_q : t1_q;
-      t1_q   <= two ? t2_q + cum_t'(total_q) : t2_q;
-      t2_q   <= t2_q + (two ? cum_t'(total_q) << 1 : cum_t'(total_q));
+      t1_q   <= two ? t2_q + CumWidth'(total_q) : t2_q;
+      t2_q   <= t2_q + (two ? CumWidth'(total_q) << 1 : CumWidth'(total_q));
       left_q <= left_q - (two ? (At + 1)'(2) : (At + 1)'(1));
     end
     if (scale_known_i) walk_row_q <= '0;
-    else if (pop) walk_row_q <= walk_row_q + row_t'(1);
+    else if (pop) walk_row_q <= walk_row_q + At'(1);
   end
 
   // ---- parents: up to two an entry

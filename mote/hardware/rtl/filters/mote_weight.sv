@@ -23,37 +23,34 @@ module mote_weight #(
     input  logic                         rst_ni,
     input  logic                         valid_i,
     input  logic                         first_i,
-    input  logic [Lanes-1:0][LogWidth-1:0] log_weight_i,
+    input  logic [Lanes*LogWidth-1:0]    log_weight_i,
     output logic                         valid_o,
     output logic                         first_o,
     output logic        [2:0]            rise_o,
-    output logic [Lanes-1:0][Width-1:0]  weight_o,
+    output logic [Lanes*Width-1:0]       weight_o,
     output logic signed [ScaleWidth-1:0] scale_o,
     output logic signed [ScaleWidth-1:0] scale_early_o
 );
   typedef logic signed [ScaleWidth-1:0] scale_t;
   // Differences of scales are never negative here.
   function automatic logic [2:0] limited(input logic [ScaleWidth-1:0] difference);
-    return difference > ScaleWidth'(7) ? 3'd7 : difference[2:0];
+    limited = difference > ScaleWidth'(7) ? 3'd7 : difference[2:0];
   endfunction
 
   logic [15:0] table_rom[1<<Frac];
   initial $readmemh(Table, table_rom);
 
   // 1: the scale that each weight asks for, and the greatest of them.
-  scale_t [Lanes-1:0] need, need_q;
+  logic [Lanes*ScaleWidth-1:0] need;
   scale_t             most, most_q;
-  logic [Lanes-1:0][Frac+2:0] below_q;
   logic               valid1_q, first1_q;
   always_comb begin
-    for (int l = 0; l < Lanes; l++) need[l] = scale_t'($signed(log_weight_i[l]) >>> (Frac + 3)) + scale_t'(1);
-    most = need[0];
-    for (int l = 1; l < Lanes; l++) if ($signed(need[l]) > most) most = need[l];
+    most = need[0+:ScaleWidth];
+    for (int l = 1; l < Lanes; l++)
+      if ($signed(need[l*ScaleWidth+:ScaleWidth]) > most) most = need[l*ScaleWidth+:ScaleWidth];
   end
   always_ff @(posedge clk_i) begin
-    need_q   <= need;
     most_q   <= most;
-    for (int l = 0; l < Lanes; l++) below_q[l] <= log_weight_i[l][Frac+2:0];
     first1_q <= first_i;
   end
 
@@ -86,20 +83,26 @@ module mote_weight #(
     first_o  <= first4_q;
   end
   for (genvar l = 0; l < Lanes; l++) begin : gen_lane
-    scale_t           need2_q;
+    logic signed [LogWidth-1:0] log_weight;
+    scale_t           need_q, need2_q;
+    logic [Frac+2:0]  below_q;
     logic [2:0]       fine2_q, coarse3_q, fine3_q, fine4_q;
     logic [15:0]      power_q, power3_q;
     logic [Width-1:0] shifted_q;
+    assign log_weight = log_weight_i[l*LogWidth+:LogWidth];
+    assign need[l*ScaleWidth+:ScaleWidth] = ScaleWidth'(log_weight >>> (Frac + 3)) + ScaleWidth'(1);
     always_ff @(posedge clk_i) begin
-      need2_q     <= need_q[l];
-      fine2_q     <= ~below_q[l][Frac+2:Frac];
-      power_q     <= table_rom[below_q[l][Frac-1:0]];
+      need_q      <= need[l*ScaleWidth+:ScaleWidth];
+      below_q     <= log_weight[Frac+2:0];
+      need2_q     <= need_q;
+      fine2_q     <= ~below_q[Frac+2:Frac];
+      power_q     <= table_rom[below_q[Frac-1:0]];
       coarse3_q   <= limited(scale_q - need2_q);
       fine3_q     <= fine2_q;
       power3_q    <= power_q;
       shifted_q   <= {power3_q, {(Width - 16) {1'b0}}} >> {coarse3_q, 3'b0};
       fine4_q     <= fine3_q;
-      weight_o[l] <= shifted_q >> fine4_q;
+      weight_o[l*Width+:Width] <= shifted_q >> fine4_q;
     end
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
