@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mote/base/scratch_folder.hpp"
 #include "mote/hardware/filters/cosim/bench.hpp"
 #include "mote/hardware/filters/cosim/models.hpp"
 #include "mote/hardware/filters/cosim/sights.hpp"
@@ -13,15 +14,30 @@
 
 namespace mote::hardware::cosim {
 
-/// The formats as they are, once what $readmemh of the circuits reads is in the working folder, where simulations look.
-inline Formats with_tables(const Formats& formats) {
-  static const bool written = [] {
-    write_tables(std::filesystem::current_path());
-    std::ofstream out("growth.hex");
+/// A folder with what $readmemh of the circuits reads, which is the working folder while it is there: simulations look
+/// in that. Tests that run side by side have one each.
+class TableFolder {
+ public:
+  TableFolder() : before_(std::filesystem::current_path()) {
+    write_tables(folder_.path());
+    std::ofstream out(folder_.file("growth.hex"));
     for (const std::int64_t entry : growth_table()) out << std::hex << (entry & 0x3FFFF) << '\n';
-    return true;
-  }();
-  EXPECT_TRUE(written);
+    std::filesystem::current_path(folder_.path());
+  }
+  ~TableFolder() { std::filesystem::current_path(before_); }
+  TableFolder(const TableFolder&) = delete;
+  TableFolder(TableFolder&&) = delete;
+  TableFolder& operator=(const TableFolder&) = delete;
+  TableFolder& operator=(TableFolder&&) = delete;
+
+ private:
+  std::filesystem::path before_;
+  ScratchFolder folder_;
+};
+
+/// The formats as they are, once the tables of the circuits are where simulations look.
+inline Formats with_tables(const Formats& formats) {
+  static const TableFolder folder;
   return formats;
 }
 
