@@ -8,8 +8,12 @@ namespace mote::hardware {
 namespace {
 
 /// Does mote_add need its second stage?
-bool refined(const Finish& finish, int fraction, const Format& y) {
-  return finish.overflow == Overflow::kSaturate || (finish.rounding == Rounding::kNearest && fraction > y.fraction);
+bool refined(const Sum& sum) {
+  constexpr int kOneStage = 20;
+  const int fraction = std::max(sum.a.fraction, sum.b.fraction);
+  const int bits = std::max(sum.a.width() + fraction - sum.a.fraction, sum.b.width() + fraction - sum.b.fraction) + 2;
+  const bool rounds = sum.finish.rounding == Rounding::kNearest && fraction > sum.y.fraction;
+  return bits > kOneStage && (rounds || sum.finish.overflow == Overflow::kSaturate);
 }
 
 std::vector<Parameter> operands(const Format& a, const Format& b, const Format& y) {
@@ -26,15 +30,14 @@ Circuit Sum::circuit() const {
   auto parameters = operands(a, b, y);
   parameters.push_back(parameter("Subtract", subtract));
   append_finish(parameters, finish);
-  const int latency = refined(finish, std::max(a.fraction, b.fraction), y) ? 2 : 1;
-  return {"mote_add", parameters, {port("a_i", a), port("b_i", b)}, {port("y_o", y)}, latency};
+  return {"mote_add", parameters, {port("a_i", a), port("b_i", b)}, {port("y_o", y)}, refined(*this) ? 2 : 1};
 }
 
 Circuit Product::circuit() const {
   auto parameters = operands(a, b, y);
   append_finish(parameters, finish);
   parameters.push_back(parameter("Logic", multiplier == Multiplier::kLogic));
-  const int latency = 2 + product_latency(multiplier, b.sign ? b.width() : b.width() + 1);
+  const int latency = 1 + product_latency(multiplier, b.sign ? b.width() : b.width() + 1);
   return {"mote_multiply", parameters, {port("a_i", a), port("b_i", b)}, {port("y_o", y)}, latency};
 }
 

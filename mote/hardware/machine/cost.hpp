@@ -22,7 +22,7 @@ struct Cost {
 
 /// Synthesises a circuit (Yosys) and finds its clock: xc7 by the delays of the cells along the slowest path, wires
 /// taken as kWireShare of it; ice40 by place and route of its blocks (pipelines and filter apart, the slowest counts);
-/// ecp5 by place and route of the whole where nextpnr-ecp5 is on PATH.
+/// ecp5: cells alone, no clock.
 ///
 /// error   Refusal (kOutsideTool) when yosys or nextpnr-ice40 is missing or fails
 /// cost    20 to 300 s

@@ -3,7 +3,8 @@
 // equation  y = a + b, or a - b with Subtract
 // formats   a, b, y: signed or not, Width bits, Fraction of them after the point (below 0: units above 1)
 // range     the sum is exact before it is rounded; mote_resize says how y is rounded, saturates or wraps
-// timing    latency 1; 2 where y is rounded to nearest with bits to drop, or saturates. One sum a clock
+// timing    latency 1; 2 where y is rounded to nearest with bits to drop, or saturates, and the exact sum has more than 20
+//           bits. One sum a clock
 // twin      Sum in mote/hardware/arithmetic.hpp
 module mote_add #(
     parameter bit ASigned = 1'b1,
@@ -29,7 +30,8 @@ module mote_add #(
   localparam int AGrow = Fraction - AFraction;
   localparam int BGrow = Fraction - BFraction;
   localparam int Sum = (AWidth + AGrow > BWidth + BGrow ? AWidth + AGrow : BWidth + BGrow) + 2;
-  localparam bit Refine = Saturate || (Nearest && Fraction > YFraction);
+  localparam int OneStage = 20;
+  localparam bit Refine = Sum > OneStage && (Saturate || (Nearest && Fraction > YFraction));
 
   logic signed [AWidth:0] a;
   logic signed [BWidth:0] b;

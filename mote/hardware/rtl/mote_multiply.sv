@@ -3,7 +3,8 @@
 // equation  y = a * b
 // formats   a, b, y: signed or not, Width bits, Fraction of them after the point. One DSP48E1 takes 25 x 18 signed bits
 // range     the product is exact before it is rounded; mote_resize says how y is rounded, saturates or wraps
-// timing    latency 2 + mote_product's (2 by DSP blocks, ceil(log2 of b's bits) by Logic); one product a clock
+// timing    latency 1 + mote_product's (2 by DSP blocks, ceil(log2 of b's bits) by Logic); one product a clock. Operands
+//           should come from registers, as the operators' results do
 // twin      Product in mote/hardware/arithmetic.hpp
 module mote_multiply #(
     parameter bit ASigned = 1'b1,
@@ -28,14 +29,7 @@ module mote_multiply #(
   localparam int AWide = ASigned ? AWidth : AWidth + 1;
   localparam int BWide = BSigned ? BWidth : BWidth + 1;
 
-  logic [AWidth-1:0] a_q;
-  logic [BWidth-1:0] b_q;
   logic signed [AWide+BWide-1:0] p;
-
-  always_ff @(posedge clk_i) begin
-    a_q <= a_i;
-    b_q <= b_i;
-  end
 
   mote_product #(
       .AWidth(AWide),
@@ -43,8 +37,8 @@ module mote_multiply #(
       .Logic (Logic)
   ) product_u (
       .clk_i,
-      .a_i(AWide'(a_q)),
-      .b_i(BWide'(b_q)),
+      .a_i(AWide'(a_i)),
+      .b_i(BWide'(b_i)),
       .p_o(p)
   );
 
