@@ -1,14 +1,12 @@
 #include "mote/hardware/synthesis.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <sstream>
 
 #include "mote/base/refusal.hpp"
 #include "mote/base/scratch_folder.hpp"
 #include "mote/hardware/bench.hpp"
-#include "mote/hardware/lowering.hpp"
 #include "mote/hardware/tools.hpp"
 
 namespace mote::hardware {
@@ -91,8 +89,6 @@ int total(const std::map<std::string, int>& cells, const std::vector<std::string
 }
 
 std::map<std::string, int> cells_after(const std::string& folder, const std::string& script) {
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().extension() == ".sv") write_text(entry.path().string(), lowered(read_text(entry.path().string())));
   run_tool(
       "yosys", "yosys",
       {"-q", "-p", "read_verilog -sv -defer " + folder + "*.sv; " + script + "; tee -o " + folder + "stat.txt stat"});

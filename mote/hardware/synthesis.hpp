@@ -23,8 +23,7 @@ struct Area {
 /// cost    1 to 20 s
 Area xc7_area(const Circuit& circuit);
 
-/// The number of cells of each kind that a Yosys script leaves of the modules in a folder (with its closing slash),
-/// which are lowered for it.
+/// The number of cells of each kind that a Yosys script leaves of the modules in a folder (with its closing slash).
 ///
 /// error   Refusal (kOutsideTool) when yosys is missing or fails
 std::map<std::string, int> cells_after(const std::string& folder, const std::string& script);

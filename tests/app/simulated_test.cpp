@@ -134,7 +134,7 @@ TEST(Platforms, AreReadFromTheirFiles) {
   EXPECT_TRUE(ring.ring);
   EXPECT_NE(ring.xml.find("radical=\"0-4\""), std::string::npos);
   EXPECT_NE(ring.xml.find("topo_parameters=\"5\""), std::string::npos);
-  EXPECT_EQ(ring.xml.find('@'), std::string::npos) << "no placeholder is left";
+  EXPECT_EQ(ring.xml.find('@'), std::string::npos) << "every place is filled in";
   EXPECT_EQ(simulated::host_list(ring), "host0\nhost1\nhost2\nhost3\nhost4\n");
   EXPECT_EQ(simulated::platform_from("modern", "test").hosts, 1024U);
   EXPECT_DOUBLE_EQ(simulated::platform_from("modern", "test").bandwidth, 12.5e9);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "mote/base/filled_in.hpp"
 #include "mote/base/refusal.hpp"
 #include "mote/hardware/machine/bits.hpp"
 #include "mote/hardware/machine/templates.hpp"
@@ -98,17 +99,17 @@ std::string figure_table(const FilterCircuit& circuit, const CircuitReport& foun
 
 std::string testbench_of(const hardware::Machine& machine, const CircuitDesign& design, const Vectors& vectors,
                          double period_ns) {
-  return hardware::filled_in(hardware::machine_template("testbench.sv.in"),
-                             {{"name", machine.name()},
-                              {"steps", fmt::format("{}", vectors.steps)},
-                              {"kept", fmt::format("{}", vectors.kept)},
-                              {"obs_top", fmt::format("{}", machine.observation_bits() - 1)},
-                              {"est_top", fmt::format("{}", machine.estimate_bits() - 1)},
-                              {"slot_top", fmt::format("{}", machine.capacity().slot_bits() - 1)},
-                              {"state_top", fmt::format("{}", machine.particle_bits() - 1)},
-                              {"registers", register_values(machine.architecture(), design.registers)},
-                              {"half_period", fmt::format("{:.3f}", period_ns / 2)},
-                              {"most_cycles", fmt::format("{}", 2 * vectors.cycles + 1000)}});
+  return filled_in(hardware::machine_template("testbench.sv.in"),
+                   {{"name", machine.name()},
+                    {"steps", fmt::format("{}", vectors.steps)},
+                    {"kept", fmt::format("{}", vectors.kept)},
+                    {"obs_top", fmt::format("{}", machine.observation_bits() - 1)},
+                    {"est_top", fmt::format("{}", machine.estimate_bits() - 1)},
+                    {"slot_top", fmt::format("{}", machine.capacity().slot_bits() - 1)},
+                    {"state_top", fmt::format("{}", machine.particle_bits() - 1)},
+                    {"registers", register_values(machine.architecture(), design.registers)},
+                    {"half_period", fmt::format("{:.3f}", period_ns / 2)},
+                    {"most_cycles", fmt::format("{}", 2 * vectors.cycles + 1000)}});
 }
 
 Files files_of(const FilterCircuit& circuit, const CircuitReport& found, const Vectors& vectors) {
@@ -124,7 +125,7 @@ Files files_of(const FilterCircuit& circuit, const CircuitReport& found, const V
       {"figures", figure_table(circuit, found)},
       {"registers", register_table(machine.architecture(), found.design.registers)},
       {"weight_bits", fmt::format("{}", machine.formats().weight_bits)}};
-  const auto filled = [&](const char* name) { return hardware::filled_in(hardware::machine_template(name), places); };
+  const auto filled = [&](const char* name) { return filled_in(hardware::machine_template(name), places); };
   Files files{{"README.md", filled("README.md.in")},
               {kMark, circuit_json(circuit, found).dump(2) + "\n"},
               {machine.name() + ".xdc", filled("constraints.xdc.in")},

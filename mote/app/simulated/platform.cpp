@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "mote/app/files/text.hpp"
+#include "mote/base/filled_in.hpp"
 #include "mote/base/refusal.hpp"
 
 namespace mote::simulated {
@@ -48,17 +49,10 @@ Platform described(const std::string& name, const std::string& xml) {
           .ring = !attribute("topology").empty()};
 }
 
-void put(std::string& text, const std::string& placeholder, const std::string& word) {
-  for (std::size_t at = text.find(placeholder); at != std::string::npos; at = text.find(placeholder, at))
-    text.replace(at, placeholder.size(), word);
-}
-
 /// One of data/platforms, with so many cores where it is a template.
 Platform built_in(const std::string& name, const std::string& file, long long cores) {
-  std::string xml(platform_files().at(file));
-  put(xml, "@CORES@", std::to_string(cores));
-  put(xml, "@LAST@", std::to_string(cores - 1));
-  return described(name, xml);
+  return described(name, filled_in(platform_files().at(file),
+                                   {{"cores", std::to_string(cores)}, {"last", std::to_string(cores - 1)}}));
 }
 
 }  // namespace

@@ -246,7 +246,7 @@ Connections propose_connections(const Datapath& datapath) {
   const Connections out = state_connections(datapath, "proposed", "_o");
   all.insert(all.end(), in.begin(), in.end());
   for (unsigned w = 0; w < datapath.arithmetic.formats.draw_words; ++w)
-    all.emplace_back(numbered("word", w), "words[" + std::to_string(w) + "]");
+    all.emplace_back(numbered("word", w), "words[" + std::to_string(32 * w) + "+:32]");
   append_fields(all, datapath);
   all.insert(all.end(), out.begin(), out.end());
   return all;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mote/base/filled_in.hpp"
 #include "mote/base/refusal.hpp"
 #include "mote/hardware/filters/weights.hpp"
 #include "mote/hardware/machine/bits.hpp"

@@ -5,7 +5,6 @@
 #include <dlfcn.h>
 
 #include "mote/base/refusal.hpp"
-#include "mote/hardware/lowering.hpp"
 #include "mote/hardware/machine/bits.hpp"
 #include "mote/hardware/machine/driver/request.hpp"
 #include "mote/hardware/machine/templates.hpp"
@@ -53,7 +52,7 @@ std::uint64_t differing(const Particles& a, const Particles& b) {
 
 }  // namespace
 
-Simulator::Simulator(const Machine& machine, Text text) : machine_(&machine) { build(text); }
+Simulator::Simulator(const Machine& machine) : machine_(&machine) { build(); }
 
 Simulator::~Simulator() {
   if (library_ == nullptr) return;
@@ -61,11 +60,9 @@ Simulator::~Simulator() {
   dlclose(library_);
 }
 
-void Simulator::build(Text text) {
-  const bool written = text == Text::kWritten;
+void Simulator::build() {
   const std::string folder = folder_.path().string() + "/";
-  for (const DesignFile& file : machine_->modules(folder))
-    write_text(folder + file.name, written ? file.text : lowered(file.text));
+  for (const DesignFile& file : machine_->modules(folder)) write_text(folder + file.name, file.text);
   for (const DesignFile& file : machine_->tables()) write_text(folder + file.name, file.text);
   for (const char* name : {"driver.cpp", "request.hpp"}) write_text(folder + name, std::string(machine_template(name)));
   write_text(folder + "registers.hpp", registers_header(machine_->architecture()));
@@ -75,7 +72,7 @@ void Simulator::build(Text text) {
            {"--cc",
             "--exe",
             "--build",
-            written ? "-Wall" : "-Wno-lint",
+            "-Wall",
             "-O3",
             "--assert",
             "--x-assign",

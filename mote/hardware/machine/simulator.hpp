@@ -29,11 +29,7 @@ struct CircuitRun {
 /// error   Refusal (kOutsideTool) when Verilator is missing, warns about the circuit (-Wall) or fails
 class Simulator {
  public:
-  enum class Text : bool {
-    kWritten,
-    kLowered  ///< as Yosys reads it, see lowering.hpp; not held to -Wall
-  };
-  explicit Simulator(const Machine& machine, Text text = Text::kWritten);
+  explicit Simulator(const Machine& machine);
   ~Simulator();
   Simulator(const Simulator&) = delete;
   Simulator(Simulator&&) = delete;
@@ -46,7 +42,7 @@ class Simulator {
   void reset();
 
  private:
-  void build(Text text);
+  void build();
 
   const Machine* machine_;
   ScratchFolder folder_;

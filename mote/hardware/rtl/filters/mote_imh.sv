@@ -161,7 +161,7 @@ module mote_imh #(
     ) u_chain (
         .clk_i, .rst_ni,
         .word_i(valid_log),
-        .log_weight_i($signed(weigh_log_i[l*LogWidth+:LogWidth])),
+        .log_weight_i(weigh_log_i[l*LogWidth+:LogWidth]),
         .decides_i(decides_q),
         .starts_i(starts),
         .state_i(decided_state[l*StateWidth+:StateWidth]),
