@@ -27,6 +27,17 @@ class Weigher {
   Weigher(const graph::Recorded& recorded, Graph& graph, Plan& plan)
       : recorded_(recorded), graph_(graph), plan_(plan), host_(of_the_host(graph)) {}
 
+  /// The log weight of a pair of state and parent, and the move that proposes it: the model's own where something is
+  /// unseen.
+  Id with_proposal(Id log_weight, std::vector<Id>& next) {
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t j = 0; j < plan_.columns; ++j)
+      if (!recorded_.columns[j].input) all.push_back(j);
+    const Id ratio = masked(times(*recorded_.log_ratio, std::numbers::log2e), all);
+    for (std::size_t d = 0; d < next.size(); ++d) next[d] = masked(recorded_.proposed[d], all, next[d]);
+    return add(log_weight, ratio);
+  }
+
   Id log_weight(Id log_likelihood) {
     collect(log_likelihood, std::numbers::log2e);
     std::optional<Id> plus;
@@ -93,12 +104,14 @@ class Weigher {
 
   /// term where everything it reads was seen, else 0.
   Id masked(Id term, const std::vector<std::uint32_t>& needs) {
-    if (needs.empty()) return term;
+    return needs.empty() ? term : masked(term, needs, graph_.constant(0));
+  }
+  Id masked(Id term, const std::vector<std::uint32_t>& needs, Id otherwise) {
     auto place = std::find(plan_.seen.begin(), plan_.seen.end(), needs);
     if (place == plan_.seen.end()) place = plan_.seen.insert(place, needs);
     const auto bit = static_cast<std::uint32_t>(place - plan_.seen.begin());
     const Id seen = graph_.input(Role::kColumn, plan_.columns + bit);
-    return graph_.operation(Op::kSelect, {seen, graph_.constant(0.5), graph_.constant(0), term});
+    return graph_.operation(Op::kSelect, {seen, graph_.constant(0.5), otherwise, term});
   }
 
   /// Whether all terms are squares of what takes up a factor.
@@ -204,8 +217,12 @@ Plan plan_of(const graph::Recorded& recorded) {
   plan.columns = static_cast<std::uint32_t>(recorded.columns.size());
   Graph graph = recorded.graph;
   std::vector<Id> outputs = recorded.initial;
-  outputs.insert(outputs.end(), recorded.next.begin(), recorded.next.end());
-  outputs.push_back(Weigher(recorded, graph, plan).log_weight(recorded.log_likelihood));
+  std::vector<Id> next = recorded.next;
+  Weigher weigher(recorded, graph, plan);
+  Id log_weight = weigher.log_weight(recorded.log_likelihood);
+  if (recorded.log_ratio) log_weight = weigher.with_proposal(log_weight, next);
+  outputs.insert(outputs.end(), next.begin(), next.end());
+  outputs.push_back(log_weight);
   graph::Outputs simple = graph::simplified(graph, outputs, graph::Identities::kRounding);
   const auto dims = static_cast<std::ptrdiff_t>(recorded.states.size());
   plan.graph = std::move(simple.graph);

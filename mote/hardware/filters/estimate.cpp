@@ -16,8 +16,8 @@ std::uint64_t sum_of(std::span<const ScaledWeight> weights) {
   return sum;
 }
 
-std::vector<std::int64_t> weighted_means(const Particles& states, std::span<const ScaledWeight> weights,
-                                         std::uint64_t divisor, unsigned extra) {
+std::vector<std::int64_t> weighted_means(std::span<const std::vector<std::int64_t>> states,
+                                         std::span<const ScaledWeight> weights, std::uint64_t divisor, unsigned extra) {
   __extension__ using Wide = __int128;
   std::vector<std::int64_t> means;
   means.reserve(states.size());

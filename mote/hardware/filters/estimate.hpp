@@ -31,8 +31,8 @@ std::uint64_t sum_of(std::span<const ScaledWeight> weights);
 /// before a row is added.
 ///
 /// shape   states: dims columns of n; weights: (n); means: (dims), `extra` fraction bits more than the states
-std::vector<std::int64_t> weighted_means(const Particles& states, std::span<const ScaledWeight> weights,
-                                         std::uint64_t divisor, unsigned extra);
+std::vector<std::int64_t> weighted_means(std::span<const std::vector<std::int64_t>> states,
+                                         std::span<const ScaledWeight> weights, std::uint64_t divisor, unsigned extra);
 
 /// Stages by which a row of several lanes is added up.
 constexpr std::uint64_t row_cycles(std::size_t lanes) { return lanes > 1 ? 1 : 0; }

@@ -1,0 +1,77 @@
+// Overlapped steps of chains: what is saved, and what it costs.
+
+#include <gtest/gtest.h>
+
+#include "tests/hardware/accuracy.hpp"
+
+namespace mote::hardware {
+namespace {
+
+/// The error of IMH with overlapped steps, and of IMH whose parents are swept in the order of the chain, over IMH's.
+struct Overlap {
+  Paired overlapped, swept;
+};
+
+/// Parents in the order in which the chain left them, whatever the filter chose.
+Arithmetic sweeping(Arithmetic arithmetic, const Imh* const& filter) {
+  arithmetic.propose = [full = arithmetic.propose, &filter](unsigned t, Observed y, const Particles& parents,
+                                                            const WordColumns& words, Particles& states) {
+    Particles in_order = parents;
+    for (std::size_t d = 0; d < parents.size(); ++d)
+      for (std::size_t j = 0; j < parents[d].size(); ++j)
+        in_order[d][j] = filter->set()[d][j % filter->set()[d].size()];
+    full(t, y, in_order, words, states);
+  };
+  return arithmetic;
+}
+
+Overlap overlap(std::uint32_t particles, std::size_t recordings) {
+  const Ungm<1> model;
+  const Subject growth = subject("growth", *catalogue_model("ungm"), {.overlapped = true});
+  const auto solver = referee::solver_of(model);
+  Overlap all;
+  for (std::uint64_t seed = 1; seed <= recordings; ++seed) {
+    Recording recording = statistics::simulate(model, 50, seed).recording;
+    recording.observations = model.columns();
+    const auto exact = solver->solve(recording).value().means;
+    const auto error = [&](Imh& filter) {
+      filter.start({particles, particles, 0, false});
+      return distance(golden_means(filter, growth, recording), exact);
+    };
+    Imh apart(growth.datapath.arithmetic, seed);
+    Imh overlapped(growth.datapath.arithmetic, seed + 1'000'000, 0, {.overlapped = true});
+    const Imh* that = nullptr;
+    Imh swept(sweeping(growth.datapath.arithmetic, that), seed + 2'000'000);
+    that = &swept;
+    const double reference = error(apart);
+    all.overlapped.circuit.push_back(error(overlapped));
+    all.swept.circuit.push_back(error(swept));
+    all.overlapped.software.push_back(reference);
+    all.swept.software.push_back(reference);
+    if (seed == 1)
+      std::printf("N = %u, 50 steps: %lu cycles, overlapped %lu\n", particles,
+                  static_cast<unsigned long>(apart.cycles()), static_cast<unsigned long>(overlapped.cycles()));
+  }
+  return all;
+}
+
+void expect_no_cost(std::uint32_t particles, std::size_t recordings, bool told_apart) {
+  const Overlap found = overlap(particles, recordings);
+  print("overlapped over apart", found.overlapped);
+  print("swept over apart", found.swept);
+  const auto [ratio, error] = found.overlapped.ratio();
+  EXPECT_LE(ratio, 1.02 + 2 * error);
+  if (told_apart) {
+    EXPECT_GT(found.swept.ratio().first, 1.06) << "the twin";
+  }
+}
+
+// claim    overlapped steps cost no accuracy: parents among those that have emerged are as good as among all
+// referee  the same filter apart, by its error to the exact means; other seeds, so that the two err independently
+// design   growth model, N = 1000 and 100 (where half of the slots are withheld from the first rows), fixed seeds
+// risk     none: fixed seeds. The twin sweeps the parents in the chain's order, which would overlap as well
+TEST(OverlappedStepsNightly, CostNoAccuracyAtAThousand) { expect_no_cost(1000, 1500, true); }
+TEST(OverlappedStepsNightly, CostNoAccuracyAtAHundred) { expect_no_cost(100, 3000, false); }
+
+}  // namespace
+}  // namespace mote::hardware
