@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Kind{"growth2_auxiliary_overlapped", "ungm", {"copies=2"}, "auxiliary", 1, true, "observation"},
                       Kind{"bearings_auxiliary", "bearings", {}, "auxiliary", 1, false, "prior"},
                       Kind{"doa_auxiliary", "doa", {}, "auxiliary", 1, false, "prior"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& one) { return one.param.name; });
 
 }  // namespace
 }  // namespace mote::hardware

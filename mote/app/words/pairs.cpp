@@ -5,6 +5,7 @@
 
 #include "mote/base/draws.hpp"
 #include "mote/base/log_weights.hpp"
+#include "mote/base/normal.hpp"
 #include "mote/filter/resample/schemes.hpp"
 #include "mote/graph/evaluate.hpp"
 
@@ -28,7 +29,19 @@ std::vector<double> taken(const std::vector<double>& values, const std::vector<g
   return all;
 }
 
-bool is_draw(Role role) { return role == Role::kNormal || role == Role::kUniform; }
+/// Which draws a pair takes: those of the proposal, and of the model's own move what that has more.
+std::vector<bool> draws_of(const graph::Recorded& recorded) {
+  std::vector<bool> normal = recorded.proposal_draws;
+  for (std::size_t k = normal.size(); k < recorded.draws.size(); ++k) normal.push_back(recorded.draws[k]);
+  return normal;
+}
+
+/// A draw as an input has it: the model's own move may read as normal what the proposal reads as uniform.
+double as(Role role, bool normal, double number) {
+  if (role == Role::kNormal && !normal) return standard_normal_quantile(number);
+  if (role == Role::kUniform && normal) return 0.5 * std::erfc(-number / std::sqrt(2.0));
+  return number;
+}
 
 }  // namespace
 
@@ -48,7 +61,8 @@ PairSampling::State PairSampling::prior(Draw& draw) const {
 template <class Draw>
 PairSampling::Pair PairSampling::proposed(const State& before, const Row<double>& row,
                                           const std::vector<double>& schedule, Draw& draw) {
-  const std::vector<double> numbers = drawn(recorded_->proposal_draws, draw);
+  const std::vector<bool> normal = draws_of(*recorded_);
+  const std::vector<double> numbers = drawn(normal, draw);
   State x(before.size());
   std::vector<double> values;
   const auto input = [&](const Vertex& v) {
@@ -56,7 +70,8 @@ PairSampling::Pair PairSampling::proposed(const State& before, const Row<double>
     if (v.role == Role::kState) return x[v.index];
     if (v.role == Role::kColumn) return row[v.index];
     if (v.role == Role::kSchedule) return schedule[v.index];
-    return is_draw(v.role) && v.index < numbers.size() ? numbers[v.index] : 0.0;
+    if (v.role != Role::kNormal && v.role != Role::kUniform) return 0.0;
+    return as(v.role, normal[v.index], numbers[v.index]);
   };
   graph::evaluate(recorded_->graph, input, values);
   const bool kept = count_++ % stride_ == 0 && moves_.size() < most_;

@@ -16,7 +16,7 @@ struct WordStudyDesign {
   Step steps = 50;
   std::size_t recordings = 10;
   std::uint64_t seed = 1;
-  std::string where;               ///< who asks for it, for refusals
+  std::string where = {};          ///< who asks for it, for refusals
   std::string proposal = "prior";  ///< whose particles circuits' words are chosen by
   double margin = 0.25;            ///< by which ranges are wider than what was seen
   graph::WordSearch search;
