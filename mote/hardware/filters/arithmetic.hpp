@@ -25,7 +25,7 @@ struct Formats {
   unsigned extra_bits = 8;    ///< fraction bits of a mean beyond those of the state
   unsigned propose_latency = 4, weigh_latency = 4;
   unsigned carried = 0;      ///< words beside the state's that a proposal brings to be weighed, of value_bits each
-  unsigned count_bits = 10;  ///< At of a circuit that resamples by several lanes: N <= 2^count_bits
+  unsigned count_bits = 10;  ///< At of a circuit that resamples: N <= 2^count_bits, from 6
 };
 
 /// A model as the circuit computes it.

@@ -100,18 +100,19 @@ Estimate Imh::infer() {
   const std::uint64_t sum = sum_of(weights_);
   const std::span<const std::vector<std::int64_t>> states = std::span(proposals_).first(f.dims);
   const std::int64_t scale = weights_.back().scale;
-  if (!registers_.chain_mean) return {weighted_means(states, weights_, sum, f.extra_bits), sum, scale, 0};
+  if (!registers_.chain_mean) return {weighted_means(states, weights_, sum, f), sum, scale, 0};
   const std::vector<ScaledWeight> equal(kept_.size(), {1 << 16, 0, 0});
-  return {weighted_means(set_, equal, sum_of(equal), f.extra_bits), sum, scale, 0};
+  return {weighted_means(set_, equal, sum_of(equal), f), sum, scale, 0};
 }
 
 void Imh::keep_time() {
   const ImhLatency latency(arithmetic_.formats, lanes_);
   pace_.begin();
   pace_.free_from(pace_.begun() + latency.step(registers_, lanes_));
-  // All is in when the last weight is, 5 cycles after its logarithm, and the last state that was kept.
+  // All is in when the last weight is, and the last state that was kept.
   const std::uint64_t log_weight = pace_.begun() + latency.decided(registers_, lanes_) - lanes_.chain_latency();
-  const std::uint64_t done = log_weight + std::max<std::uint64_t>(5, lanes_.chain_latency() + 1);
+  const std::uint64_t done =
+      log_weight + std::max<std::uint64_t>(weight_cycles(lanes_.count), lanes_.chain_latency() + 1);
   pace_.sums_stand(done + 4 + row_cycles(lanes_.count), division_cycles(arithmetic_.formats));
 }
 

@@ -38,12 +38,17 @@ std::unique_ptr<Golden> golden_chain(const Arithmetic& arithmetic, std::uint64_t
                                          ImhLanes{capacity.lanes, Parents::kBanked, true, capacity.overlapped});
 }
 
-std::unique_ptr<Golden> golden_cloud(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity& capacity) {
-  return std::make_unique<GoldenOf<Sisr>>(arithmetic, seed, 0, capacity.lanes);
+Arithmetic counting(Arithmetic arithmetic, const Capacity& capacity) {
+  arithmetic.formats.count_bits = capacity.at;
+  return arithmetic;
 }
 
-std::unique_ptr<Golden> golden_loops(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity&) {
-  return std::make_unique<GoldenOf<Sisr>>(arithmetic, seed, 0, PlainLoops{});
+std::unique_ptr<Golden> golden_cloud(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity& capacity) {
+  return std::make_unique<GoldenOf<Sisr>>(counting(arithmetic, capacity), seed, 0, capacity.lanes);
+}
+
+std::unique_ptr<Golden> golden_loops(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity& capacity) {
+  return std::make_unique<GoldenOf<Sisr>>(counting(arithmetic, capacity), seed, 0, PlainLoops{});
 }
 
 const Register kParticles{"n", "N, particles, from 1", false, [](const RunRegisters& r) { return r.particles; }};
@@ -69,7 +74,7 @@ Capacity chain_of_pairs_capacity(const RunRegisters& r, unsigned lanes) {
 }
 
 Capacity cloud_capacity(const RunRegisters& r, unsigned lanes) {
-  const unsigned at = std::max(lanes > 1 ? 6U : 2U, bits_for(r.particles));
+  const unsigned at = std::max(6U, bits_for(r.particles));
   return {at, 1U << at, lanes};
 }
 
@@ -170,7 +175,7 @@ const std::vector<Architecture>& architectures() {
        {kParticles},
        1,
        false,
-       8,
+       5,
        cloud_parameters,
        cloud_range,
        cloud_capacity,
@@ -182,7 +187,7 @@ const std::vector<Architecture>& architectures() {
        {kParticles},
        8,
        false,
-       8,
+       6,
        cloud_parameters,
        cloud_range,
        cloud_capacity,
@@ -194,7 +199,7 @@ const std::vector<Architecture>& architectures() {
        {kParticles},
        1,
        false,
-       8,
+       6,
        no_parameters,
        cloud_range,
        cloud_capacity,

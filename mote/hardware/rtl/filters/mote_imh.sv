@@ -26,8 +26,8 @@
 //          draws_i + Lanes burn_in_i <= 2^At (Folded: draws_i + burn_in_i); Most <= 2^At. Registers are read at start_i
 // timing   a step of r rows takes (r - 1) + K_p + K_w + 1 cycles, exactly (IMH-HW 5.3 with T_p = T_w = T_D = 1; of pairs with
 //          T_D = 1/Lanes): K_p = 4 + ProposeLatency, K_w = WeighLatency + 1 (Folded: WeighLatency + Lanes + 2); the estimate
-//          follows 9 + Dims (ValueWidth + Extra + 1) cycles (one more with several lanes) behind the last decision, of a
-//          folded chain Lanes - 1 sooner or later, see imh.cpp. A step waits for an observation, and for the estimate of the
+//          follows 7 + Dims (ValueWidth + Extra + 1) cycles (1 + log2 Lanes more with several lanes) behind the last decision, of
+//          a folded chain sooner or later, see imh.cpp. A step waits for an observation, and for the estimate of the
 //          step before the last to be taken. Overlapped: r + W - H cycles; r where n >= 2 W.
 //          ProposeLatency + WeighLatency >= 6
 // golden   mote/hardware/filters/imh.hpp
@@ -204,7 +204,7 @@ module mote_imh #(
       .write_state_i(kept_state_o));
 
   // ---- the model's arithmetic, and the chains, whose words begin 5 cycles before the log weight is there
-  localparam int unsigned Scaled = 5;  // from log weights to weights, the latency of mote_weight
+  localparam int unsigned Scaled = Lanes > 1 ? 4 : 3;  // from log weights to weights, the latency of mote_weight
   localparam int unsigned Tap = ChainLatency < Scaled ? ChainLatency : Scaled;
   logic weighed_valid, weighed_first, decides, starts, keeps;
   logic [Lanes-1:0] accepts;
@@ -307,12 +307,12 @@ module mote_imh #(
   localparam int unsigned HoldWeights = Overlapped == 1 ? Done - Scaled : 0;
   localparam int unsigned HoldKept = Overlapped == 1 ? Done - (ChainLatency + 1) : 0;
   localparam logic [WeightWidth-1:0] Unit = WeightWidth'(65536);
-  localparam int unsigned WeightBits = 4 + ScaleWidth + Lanes * WeightWidth;
-  logic scaled_valid, scaled_first, weight_valid, weight_first;
-  logic [2:0] scaled_rise, weight_rise;
+  localparam int unsigned WeightBits = 2 + ScaleWidth + Lanes * WeightWidth;
+  logic scaled_valid, weight_valid;
+  logic [1:0] scaled_rise, weight_rise;
   logic [Lanes*WeightWidth-1:0] scaled, weight;
   logic [Lanes*StateWidth-1:0] inferred_state, kept;
-  logic signed [ScaleWidth-1:0] scaled_scale, scale, unused_scale;
+  logic signed [ScaleWidth-1:0] scaled_scale, scale;
   logic kept_valid, kept_first;
   mote_weight #(.Lanes(Lanes), .LogWidth(LogWidth), .Width(WeightWidth), .Table(Exp2Table)) u_weight (
       .clk_i, .rst_ni,
@@ -320,15 +320,13 @@ module mote_imh #(
       .first_i(weighed_first),
       .log_weight_i(weigh_log_i),
       .valid_o(scaled_valid),
-      .first_o(scaled_first),
       .rise_o(scaled_rise),
       .weight_o(scaled),
-      .scale_o(scaled_scale),
-      .scale_early_o(unused_scale));
+      .scale_o(scaled_scale));
   mote_valid #(.Depth(HoldWeights)) u_weight_valid (
       .clk_i, .rst_ni, .valid_i(scaled_valid), .valid_o(weight_valid));
   mote_delay #(.Width(WeightBits), .Depth(HoldWeights)) u_held_weight (
-      .clk_i, .d_i({scaled_first, scaled_rise, scaled_scale, scaled}), .d_o({weight_first, weight_rise, scale, weight}));
+      .clk_i, .d_i({scaled_rise, scaled_scale, scaled}), .d_o({weight_rise, scale, weight}));
   mote_delay #(.Width(Lanes * StateWidth), .Depth(Scaled + HoldWeights - Tap)) u_inferred_state (
       .clk_i, .d_i(tapped_state), .d_o(inferred_state));
   mote_valid #(.Depth(HoldKept)) u_kept_valid (.clk_i, .rst_ni, .valid_i(kept_q), .valid_o(kept_valid));
@@ -363,14 +361,12 @@ module mote_imh #(
   ) u_estimate (
       .clk_i, .rst_ni,
       .weight_valid_i(weight_valid),
-      .weight_first_i(weight_first),
       .weight_rise_i(weight_rise),
       .weight_i(weight),
       .scale_i(scale),
       .sum_so_far_o(unused_sum),
       .value_valid_i(equal_q ? kept_valid : weight_valid),
-      .value_first_i(equal_q ? kept_first : weight_first),
-      .value_rise_i(equal_q ? 3'd0 : weight_rise),
+      .value_rise_i(equal_q ? {2{kept_first}} : weight_rise),
       .value_weight_i(equal_q ? {Lanes{Unit}} : weight),
       .value_i(equal_q ? kept : inferred_state),
       .done_i(done),
