@@ -57,8 +57,9 @@ Overlap overlap(std::uint32_t particles, std::size_t recordings) {
 
 void expect_no_cost(std::uint32_t particles, std::size_t recordings, bool told_apart) {
   const Overlap found = overlap(particles, recordings);
-  print("overlapped over apart", found.overlapped);
-  print("swept over apart", found.swept);
+  for (const auto& [what, paired] : {std::pair{"overlapped", &found.overlapped}, std::pair{"swept", &found.swept}})
+    std::printf("%s: error over that of steps apart: %.4f +- %.4f\n", what, paired->ratio().first,
+                paired->ratio().second);
   const auto [ratio, error] = found.overlapped.ratio();
   EXPECT_LE(ratio, 1.02 + 2 * error);
   if (told_apart) {
