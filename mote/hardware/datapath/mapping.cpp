@@ -16,6 +16,8 @@ using graph::Vertex;
 constexpr int kMostDigits = 6;
 /// Bits of a function's operand, at least.
 constexpr int kLeastOperand = 5;
+/// Bits of a factor that any DSP block takes.
+constexpr int kBitsOfFactor = 18;
 /// Bits that parts of a sum keep beyond its last.
 constexpr int kSumGuard = 2;
 
@@ -95,27 +97,28 @@ std::vector<Id> Mapping::operands(Id id) const {
 /// The format of a sum or product, with up to `more` bits before the point in place of saturation and kSumGuard behind
 /// it in place of rounding, if that makes it whole: either takes more than the bits.
 Format Mapping::roomy(Id id, int integer, int fraction, int more) const {
-  Format y = precision_.formats[id];
-  if (!loose_[id]) return y;
-  if (integer <= y.integer + more) y.integer = integer;
-  if (fraction <= y.fraction + kSumGuard) y.fraction = fraction;
-  return id == plan_.log_weight && (y.integer > kLogWeight.integer || y.fraction > kLogWeight.fraction)
-             ? precision_.formats[id]
-             : y;
+  const Format& y = precision_.formats[id];
+  const Format wide{y.sign, integer <= y.integer + more ? integer : y.integer,
+                    fraction <= y.fraction + kSumGuard ? fraction : y.fraction};
+  const bool log_weight = id == plan_.log_weight;
+  const bool fits = !log_weight || (wide.integer <= kLogWeight.integer && wide.fraction <= kLogWeight.fraction);
+  return fits && wide.width() <= room_[id] ? wide : y;
 }
 
-std::vector<bool> Mapping::loose_of(const Plan& plan, const std::map<Id, Fused>& fused) {
-  std::vector<bool> loose(plan.graph.size(), true);
+/// Sums and masked terms take any format, products what a DSP block takes; all else reads the vertex's own.
+std::vector<int> Mapping::room_of(const Plan& plan, const std::map<Id, Fused>& fused) {
+  constexpr int kMostBits = 48;
+  std::vector<int> room(plan.graph.size(), kMostBits);
   for (const Part part : {Part::kInitial, Part::kNext})
-    for (const Id id : plan.outputs(part)) loose[id] = false;
+    for (const Id id : plan.outputs(part)) room[id] = 0;
   for (Id id = 0; id < plan.graph.size(); ++id) {
     const Vertex& v = plan.graph[id];
-    const bool masks = v.op == Op::kSelect && plan.seen_bit(v.args[0]) >= 0;
-    if (is_sum(v.op) || v.op == Op::kMultiply || (masks && id != plan.log_weight)) continue;
-    for (const Id arg : v.operands()) loose[arg] = false;
+    const bool masks = v.op == Op::kSelect && plan.seen_bit(v.args[0]) >= 0 && id != plan.log_weight;
+    const int most = is_sum(v.op) || masks ? kMostBits : v.op == Op::kMultiply ? kBitsOfFactor : 0;
+    for (const Id arg : v.operands()) room[arg] = std::min(room[arg], most);
   }
-  for (const auto& [root, one] : fused) loose[one.source] = false;
-  return loose;
+  for (const auto& [root, one] : fused) room[one.source] = 0;
+  return room;
 }
 
 std::vector<unsigned> Mapping::readers_of(const Plan& plan) {

@@ -44,7 +44,7 @@ class Mapping {
         sketch_(sketch),
         functions_(functions),
         readers_(readers_of(plan)),
-        loose_(loose_of(plan, fused)) {}
+        room_(room_of(plan, fused)) {}
 
   /// What an input or a field is; it is converted to the vertex's format.
   void give(graph::Id id, const Signal& signal);
@@ -84,7 +84,7 @@ class Mapping {
   [[noreturn]] void refuse(graph::Id id) const;
   Format roomy(graph::Id id, int integer, int fraction, int more) const;
   static std::vector<unsigned> readers_of(const Plan& plan);
-  static std::vector<bool> loose_of(const Plan& plan, const std::map<graph::Id, Fused>& fused);
+  static std::vector<int> room_of(const Plan& plan, const std::map<graph::Id, Fused>& fused);
 
   const Plan& plan_;
   const graph::Recorded& recorded_;
@@ -93,7 +93,7 @@ class Mapping {
   Sketch& sketch_;
   Functions& functions_;
   std::vector<unsigned> readers_;  ///< by vertex: how often others and results read it
-  std::vector<bool> loose_;        ///< by vertex: sums and products alone read it, so that it may have more bits
+  std::vector<int> room_;          ///< by vertex: the bits that it may grow to where that is cheaper
   std::vector<bool> wanted_;       ///< by vertex: to be computed
   std::map<graph::Id, Signal> signals_;
   std::map<std::string, Pair> pairs_;
