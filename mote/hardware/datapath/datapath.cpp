@@ -115,7 +115,7 @@ class Builder {
     std::vector<Signal> words;
     for (std::size_t k = 0; k < draw_words(recorded_); ++k)
       words.push_back(sketch.input(numbered("word", k), kSignedBits));
-    const WordDraws draws(sketch, options_.multiplier);
+    const WordDraws draws(sketch);
     for (Id id = 0; id < plan_.graph.size(); ++id) {
       const Vertex& v = plan_.graph[id];
       if (v.op != Op::kInput) continue;

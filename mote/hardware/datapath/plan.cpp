@@ -51,8 +51,9 @@ class Weigher {
         return same;
       });
       const bool within = squares(group);
-      const Id sum = within ? sum_of(group, std::sqrt(std::abs(factor))) : times(sum_of(group, 1), factor);
-      std::optional<Id>& side = within && factor < 0 ? minus : plus;
+      const bool turned = within && factor < 0 && differences(group);
+      const Id sum = within ? sum_of(group, std::sqrt(std::abs(factor)), turned) : times(sum_of(group, 1), factor);
+      std::optional<Id>& side = within && factor < 0 && !turned ? minus : plus;
       side = side ? add(*side, sum) : sum;
     }
     if (!minus) return plus ? *plus : graph_.constant(0);
@@ -120,14 +121,21 @@ class Weigher {
       return graph_[id].op == Op::kMultiply && graph_[id].args[0] == graph_[id].args[1] && scales(graph_[id].args[0]);
     });
   }
-  /// The sum of the terms, each only where it was seen; squares of `root` times their sides if root is not 1.
-  Id sum_of(const std::vector<Id>& terms, double root) {
+  /// Whether all terms are squares of differences, whose negatives (a - b) (b - a) cost nothing.
+  bool differences(const std::vector<Id>& terms) const {
+    return std::all_of(terms.begin(), terms.end(),
+                       [&](Id id) { return graph_[graph_[id].args[0]].op == Op::kSubtract; });
+  }
+  /// The sum of the terms, each only where it was seen; squares of `root` times their sides, negative ones if
+  /// `turned`.
+  Id sum_of(const std::vector<Id>& terms, double root, bool turned = false) {
     std::optional<Id> sum;
     for (const Id term : terms) {
       Id inner = term;
-      if (root != 1) {
+      if (root != 1 || turned) {
         const Id side = scaled(graph_[term].args[0], root);
-        inner = graph_.operation(Op::kMultiply, {side, side});
+        const Vertex v = graph_[side];
+        inner = graph_.operation(Op::kMultiply, {side, turned ? graph_.operation(v.op, {v.args[1], v.args[0]}) : side});
       }
       const Id part = masked(inner, needs(term));
       sum = sum ? add(*sum, part) : part;
