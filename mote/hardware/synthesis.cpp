@@ -12,6 +12,9 @@
 namespace mote::hardware {
 namespace {
 
+/// Every register with an asynchronous reset has an inverter of its own before this.
+constexpr const char* kMergeEqualCells = "opt_merge -share_all; opt_clean";
+
 /// The number of cells of each kind in what `stat` printed last.
 std::map<std::string, int> cells_of(const std::string& printed) {
   std::istringstream lines(printed.substr(std::min(printed.size(), printed.rfind("Number of cells:"))));
@@ -89,10 +92,15 @@ int total(const std::map<std::string, int>& cells, const std::vector<std::string
 }
 
 std::map<std::string, int> cells_after(const std::string& folder, const std::string& script) {
-  run_tool(
-      "yosys", "yosys",
-      {"-q", "-p", "read_verilog -sv -defer " + folder + "*.sv; " + script + "; tee -o " + folder + "stat.txt stat"});
+  run_tool("yosys", "yosys",
+           {"-q", "-p",
+            "read_verilog -sv -defer " + folder + "*.sv; " + script + "; " + std::string(kMergeEqualCells) +
+                "; tee -o " + folder + "stat.txt stat"});
   return cells_of(read_text(folder + "stat.txt"));
+}
+
+std::string xc7_script(const std::string& top) {
+  return "synth_xilinx -family xc7 -flatten -noiopad -top " + top + "; opt_merge; opt_clean";
 }
 
 Area xc7_area(const std::map<std::string, int>& cells) {
@@ -104,7 +112,7 @@ Area xc7_area(const Circuit& circuit) {
   const ScratchFolder scratch;
   const std::string folder = scratch.path().string() + "/";
   write_bench(folder, "core", {circuit});
-  return xc7_area(cells_after(folder, "synth_xilinx -family xc7 -flatten -noiopad -top core"));
+  return xc7_area(cells_after(folder, xc7_script("core")));
 }
 
 Routed ice40_routed(const Circuit& circuit, int seed) {

@@ -51,8 +51,10 @@ EngineTimes engine_times(const std::string& name, bool stages, const CatalogueMo
   return {name, stages, spread_of(times[0]), spread_of(times[1]), spread_of(times[2])};
 }
 
-CircuitTimes circuit_times(const CatalogueModel& model, const std::string& name, std::size_t particles) {
+CircuitTimes circuit_times(const std::shared_ptr<const CatalogueModel>& model, const std::string& name,
+                           std::size_t particles) {
   CircuitDesign design;
+  design.where = "mote design measure";
   design.architecture = &hardware::architectures().front();
   design.registers.particles = design.registers.draws = static_cast<std::uint32_t>(particles);
   const FilterCircuit circuit = filter_circuit(model, name, design);
@@ -109,9 +111,9 @@ ExitCode run_measure(const Arguments& arguments) {
   work.particles = static_cast<std::size_t>(arguments.integer("--particles", 1, 1'000'000));
   work.number_bytes = arguments.choice("--precision", {"double", "float"}) == 0 ? 8 : 4;
   const int repeats = static_cast<int>(arguments.integer("--repeats", 1, 1000));
-  const auto model = find_model(name, arguments.where())
-                         .make(Settings(arguments.where(), arguments.list("--set")),
-                               frame_header(arguments.integer("--columns", 1, 64)));
+  const std::shared_ptr<const CatalogueModel> model = find_model(name, arguments.where())
+                                                          .make(Settings(arguments.where(), arguments.list("--set")),
+                                                                frame_header(arguments.integer("--columns", 1, 64)));
   OutputSet outputs;
   Output* json = outputs.open(arguments.text("--json"));
   std::vector<EngineTimes> engines;
@@ -124,7 +126,7 @@ ExitCode run_measure(const Arguments& arguments) {
       engines.push_back(engine_times("simd", false, *model, work, arguments, repeats, ran));
   }
   std::optional<CircuitTimes> circuit;
-  if (arguments.given("--circuit")) circuit = circuit_times(*model, name, std::min<std::size_t>(work.particles, 65536));
+  if (arguments.given("--circuit")) circuit = circuit_times(model, name, std::min<std::size_t>(work.particles, 65536));
   if (json != nullptr) json->write(measure_json(name, engines, circuit).dump(2) + "\n");
   outputs.commit();
   if (!outputs.on_standard_output()) fmt::print("{}", measure_text(engines, circuit, work));

@@ -25,6 +25,8 @@ void refuse_unread(const Arguments& arguments, const CircuitDesign& design) {
   const std::tuple<const char*, bool, bool> options[] = {{"--draws", r.draws != r.particles, has("draws")},
                                                          {"--burn-in", r.burn_in != 0, has("burn_in")},
                                                          {"--chain-mean", r.chain_mean, has("chain_mean")},
+                                                         {"--overlap", design.overlapped, architecture.chain},
+                                                         {"--proposal", design.proposal != "prior", architecture.pairs},
                                                          {"--lanes", design.lanes != 1, architecture.most_lanes > 1}};
   for (const auto& [option, asked, taken] : options)
     if (asked && !taken)
@@ -54,14 +56,18 @@ void refuse_uneven(const Arguments& arguments, const CircuitDesign& design) {
 std::vector<OptionSpec> circuit_options() {
   std::string kinds;
   for (const Architecture& one : architectures()) kinds += (kinds.empty() ? "" : ", ") + std::string(one.name);
-  return {{"--arch", "KIND", "imh", "kind of filter: " + kinds, "Circuit"},
-          {"-n,--particles", "N", "1000", "particles, from 1 to 65536", "Circuit"},
-          {"--draws", "Q", "", "imh: proposals a step beside the burn-in, at least N [N]", "Circuit"},
-          {"--burn-in", "NB", "0", "imh: proposals that the chain forgets", "Circuit"},
-          {"--chain-mean", "", "", "imh: estimate from the kept states instead of all weighted proposals", "Circuit"},
-          {"--lanes", "L", "", "imh-parallel: chains, sisr-lanes: lanes, a power of two [4]", "Circuit"},
-          {"--seed", "S", "1", "seed of the circuit's generators; same seed, same words", "Circuit"},
-          {"--synth", "FAMILY", "", "what it takes of a device: xc7, ice40 or ecp5 (Yosys, nextpnr) [none]", "Checks"}};
+  return {
+      {"--arch", "KIND", "imh", "kind of filter: " + kinds, "Circuit"},
+      {"-n,--particles", "N", "1000", "particles, from 1 to 65536", "Circuit"},
+      {"--draws", "Q", "", "imh: proposals a step beside the burn-in, at least N [N]", "Circuit"},
+      {"--burn-in", "NB", "0", "imh: proposals that the chain forgets", "Circuit"},
+      {"--chain-mean", "", "", "imh: estimate from the kept states instead of all weighted proposals", "Circuit"},
+      {"--overlap", "", "", "imh: begin a step while the one before is still decided on", "Circuit"},
+      {"--proposal", "NAME", "prior", "auxiliary: where new particles come from (see mote models NAME)", "Circuit"},
+      {"--lanes", "L", "", "imh-parallel: chains, imh-chain: pairs, sisr-lanes: lanes, a power of two [4]", "Circuit"},
+      {"--instances", "I", "1", "circuits side by side, one for each copy of ungm with --set copies=2", "Circuit"},
+      {"--seed", "S", "1", "seed of the circuit's generators; same seed, same words", "Circuit"},
+      {"--synth", "FAMILY", "", "what it takes of a device: xc7, ice40 or ecp5 (Yosys, nextpnr) [none]", "Checks"}};
 }
 
 CircuitDesign circuit_design_from(const Arguments& arguments) {
@@ -75,6 +81,10 @@ CircuitDesign circuit_design_from(const Arguments& arguments) {
       arguments.given("--draws") ? arguments.integer("--draws", particles, kMostInCircuit) : particles);
   design.registers.burn_in = static_cast<std::uint32_t>(arguments.integer("--burn-in", 0, kMostInCircuit));
   design.registers.chain_mean = arguments.given("--chain-mean");
+  design.instances = static_cast<unsigned>(arguments.integer("--instances", 1, 2));
+  design.where = arguments.where();
+  design.proposal = arguments.text("--proposal");
+  design.overlapped = arguments.given("--overlap");
   design.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 0, 9223372036854775807LL));
   design.lanes = lanes_from(arguments, design);
   refuse_unread(arguments, design);
