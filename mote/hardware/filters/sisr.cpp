@@ -10,13 +10,13 @@ constexpr std::uint64_t kOtherTurn = 8;  ///< cycles of a turn of the loops that
 
 }  // namespace
 
-Sisr::Sisr(Arithmetic arithmetic, std::uint64_t seed, unsigned stream, unsigned lanes)
-    : arithmetic_(std::move(arithmetic)), lanes_(lanes), resample_words_(seed, stream) {
+Sisr::Sisr(Arithmetic arithmetic, std::uint64_t seed, unsigned stream, unsigned lanes, Resampler resampler)
+    : arithmetic_(std::move(arithmetic)), lanes_(lanes), resampler_(resampler, Words(seed, stream)) {
   for (unsigned w = 0; w < lanes * arithmetic_.formats.draw_words; ++w) draw_words_.emplace_back(seed, stream + 1 + w);
 }
 
-Sisr::Sisr(Arithmetic arithmetic, std::uint64_t seed, unsigned stream, PlainLoops loops)
-    : Sisr(std::move(arithmetic), seed, stream) {
+Sisr::Sisr(Arithmetic arithmetic, std::uint64_t seed, unsigned stream, PlainLoops loops, Resampler resampler)
+    : Sisr(std::move(arithmetic), seed, stream, 1, resampler) {
   loops_ = loops;
 }
 
@@ -53,15 +53,18 @@ void Sisr::choose_parents() {
     for (std::size_t j = 0; j < parents.size(); ++j) parents_[d][j] = set_[d][parents[j]];
 }
 
+std::unique_ptr<ParentWalk> Sisr::parent_walk() {
+  return resampler_.walk({weights_, total_, written_}, arithmetic_.formats.weight_bits, arithmetic_.formats.count_bits);
+}
+
 /// Walks the weights of the step before, as its parents are taken one a cycle.
 std::vector<std::uint32_t> Sisr::walk_alone() {
-  const std::vector<std::uint64_t> sums = cumulative_sums(weights_);
-  SystematicWalk walk(sums, total_, uniform_, written_, written_.back() - 3);
+  const std::unique_ptr<ParentWalk> walk = parent_walk();
   std::vector<std::uint32_t> parents;
   while (parents.size() < issued_.size()) {
     std::uint32_t parent = 0;
-    const std::uint64_t now = walk.now();
-    if (!walk.cycle(now > pace_.begun(), parent)) continue;
+    const std::uint64_t now = walk->now();
+    if (!walk->cycle(now > pace_.begun(), parent)) continue;
     issued_[parents.size()] = now;
     parents.push_back(parent);
   }
@@ -71,7 +74,7 @@ std::vector<std::uint32_t> Sisr::walk_alone() {
 /// The same by groups of lanes.
 std::vector<std::uint32_t> Sisr::walk_abreast() {
   const Offspring offspring{arithmetic_.formats.weight_bits, arithmetic_.formats.count_bits};
-  const std::vector<std::uint32_t> ends = offspring.ends(weights_, total_, uniform_);
+  const std::vector<std::uint32_t> ends = offspring.ends(weights_, total_, resampler_.step_number());
   ChildrenWalk walk(ends, lanes_, written_.back());
   for (std::size_t k = 0; k < issued_.size();) {
     const std::uint64_t now = walk.now();
@@ -82,13 +85,12 @@ std::vector<std::uint32_t> Sisr::walk_abreast() {
 
 /// The walk as the last loop of the step before; the next step begins when it is through.
 std::vector<std::uint32_t> Sisr::walk_last() {
-  const std::vector<std::uint64_t> sums = cumulative_sums(weights_);
-  SystematicWalk walk(sums, total_, uniform_, written_, written_.back() - 3);
+  const std::unique_ptr<ParentWalk> walk = parent_walk();
   std::vector<std::uint32_t> parents;
-  for (std::uint64_t turn = written_.back() + 1; parents.size() < sums.size();) {
+  for (std::uint64_t turn = written_.back() + 1; parents.size() < written_.size();) {
     std::uint32_t parent = 0;
-    const std::uint64_t now = walk.now();
-    if (!walk.cycle(now >= turn, parent)) continue;
+    const std::uint64_t now = walk->now();
+    if (!walk->cycle(now >= turn, parent)) continue;
     parents.push_back(parent);
     turn = now + (loops_->pipelined ? 1 : kOtherTurn);
     pace_.free_from(now + 1);
@@ -100,7 +102,7 @@ Estimate Sisr::infer() {
   const Formats& f = arithmetic_.formats;
   scale_weights(log_weights_, lanes_, f.weight_bits, weights_);
   total_ = sum_of(weights_);
-  uniform_ = resample_words_.next() >> 8;
+  resampler_.end_step();
   return {weighted_means(set_, weights_, total_, f.extra_bits), total_, weights_.back().scale, 0};
 }
 

@@ -26,6 +26,8 @@ class SystematicWalk {
   SystematicWalk(std::span<const std::uint64_t> sums, std::uint64_t total, std::uint32_t uniform,
                  std::span<const std::uint64_t> written, std::uint64_t scale_known);
 
+  /// Whether a parent is there in this cycle.
+  bool shows() const { return !parents_.empty(); }
   /// Goes on by a cycle, in which the next parent is taken if `ready`; says whether one was there.
   bool cycle(bool ready, std::uint32_t& parent);
   std::uint64_t now() const { return now_; }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "mote/hardware/filters/sisr.hpp"
+#include "mote/hardware/filters/groups.hpp"
 
 namespace mote::hardware {
 namespace {
@@ -17,6 +17,8 @@ class GoldenOf final : public Golden {
   void start(const RunRegisters& registers) override {
     if constexpr (requires { filter_.start(registers); })
       filter_.start(registers);
+    else if constexpr (requires { filter_.start(registers.particles, registers.exchange); })
+      filter_.start(registers.particles, registers.exchange);
     else
       filter_.start(registers.particles);
   }
@@ -32,12 +34,25 @@ std::unique_ptr<Golden> golden_chains(const Arithmetic& arithmetic, std::uint64_
   return std::make_unique<GoldenOf<Imh>>(arithmetic, seed, 0, ImhLanes{capacity.lanes, Parents::kBanked});
 }
 
-std::unique_ptr<Golden> golden_cloud(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity& capacity) {
-  return std::make_unique<GoldenOf<Sisr>>(arithmetic, seed, 0, capacity.lanes);
+/// The arithmetic of a filter that counts up to 2^bits particles, in each of its memories of weights.
+Arithmetic counting(Arithmetic arithmetic, unsigned bits) {
+  arithmetic.formats.count_bits = bits;
+  return arithmetic;
 }
 
-std::unique_ptr<Golden> golden_loops(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity&) {
-  return std::make_unique<GoldenOf<Sisr>>(arithmetic, seed, 0, PlainLoops{});
+std::unique_ptr<Golden> golden_cloud(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity& capacity) {
+  return std::make_unique<GoldenOf<Sisr>>(counting(arithmetic, capacity.at), seed, 0, capacity.lanes,
+                                          capacity.variant.resampler);
+}
+
+std::unique_ptr<Golden> golden_loops(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity& capacity) {
+  return std::make_unique<GoldenOf<Sisr>>(counting(arithmetic, capacity.at), seed, 0, capacity.variant.loops,
+                                          capacity.variant.resampler);
+}
+
+std::unique_ptr<Golden> golden_groups(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity& capacity) {
+  return std::make_unique<GoldenOf<Groups>>(counting(arithmetic, capacity.slot_bits()), seed, 0, capacity.lanes,
+                                            capacity.variant.resampler);
 }
 
 const Register kParticles{"n", "N, particles, from 1", false, [](const RunRegisters& r) { return r.particles; }};
@@ -48,26 +63,43 @@ const Register kBurnIn{"burn_in", "N_b, proposals that the chain forgets", false
 const Register kChainMean{"chain_mean", "1: the mean over the kept states, 0: over all weighted proposals", true,
                           [](const RunRegisters& r) { return std::uint32_t{r.chain_mean}; }};
 
+const Register kExchange{"exchange", "M, children that each group has from the one before it, at most N / lanes", false,
+                         [](const RunRegisters& r) { return r.exchange; }};
+
 unsigned bits_for(std::uint32_t count) { return static_cast<unsigned>(ceil_log2(count)); }
 
 /// Chains keep `most` particles of up to 2^at proposals.
-Capacity chain_capacity(const RunRegisters& r, unsigned lanes) {
+Capacity chain_capacity(const RunRegisters& r, unsigned lanes, const Variant&) {
   const std::uint32_t most = std::max(2U, std::bit_ceil(r.particles));
   return {std::max(bits_for(lanes * r.proposals(lanes)), bits_for(most)), most, lanes};
 }
 
-Capacity cloud_capacity(const RunRegisters& r, unsigned lanes) {
-  const unsigned at = std::max(lanes > 1 ? 6U : 2U, bits_for(r.particles));
-  return {at, 1U << at, lanes};
+unsigned least_bits(const Variant& variant) { return variant.resampler == Resampler::kResidualSystematic ? 6 : 2; }
+
+Capacity cloud_capacity(const RunRegisters& r, unsigned lanes, const Variant& variant) {
+  const unsigned at = std::max(lanes > 1 ? 6U : least_bits(variant), bits_for(r.particles));
+  return {at, 1U << at, lanes, variant};
+}
+
+Capacity group_capacity(const RunRegisters& r, unsigned lanes, const Variant& variant) {
+  const unsigned at = std::max(least_bits(variant) + bits_for(lanes), bits_for(r.particles));
+  return {at, 1U << at, lanes, variant};
 }
 
 std::vector<Parameter> chain_parameters(const Capacity& c) {
   return {parameter("Lanes", static_cast<int>(c.lanes)), parameter("Most", static_cast<int>(c.most))};
 }
 
-std::vector<Parameter> cloud_parameters(const Capacity& c) { return {parameter("Lanes", static_cast<int>(c.lanes))}; }
+Parameter scheme_of(const Capacity& c) { return parameter("Scheme", static_cast<int>(c.variant.resampler)); }
 
-std::vector<Parameter> no_parameters(const Capacity&) { return {}; }
+std::vector<Parameter> cloud_parameters(const Capacity& c) {
+  return {parameter("Lanes", static_cast<int>(c.lanes)), scheme_of(c)};
+}
+
+std::vector<Parameter> loop_parameters(const Capacity& c) {
+  return {parameter("Pipelined", static_cast<int>(c.variant.loops.pipelined)),
+          parameter("Merged", static_cast<int>(c.variant.loops.merged)), scheme_of(c)};
+}
 
 std::string of_lanes(const Capacity& c, const std::string& what) {
   return c.lanes == 1 ? "" : ", " + what + " multiples of " + std::to_string(c.lanes);
@@ -77,6 +109,11 @@ std::string chain_range(const Capacity& c) {
   const std::string burn_in = c.lanes == 1 ? "burn_in_i" : std::to_string(c.lanes) + " burn_in_i";
   return "1 <= n_i <= " + std::to_string(c.most) + ", n_i <= draws_i, draws_i + " + burn_in +
          " <= " + std::to_string(1U << c.at) + of_lanes(c, "n_i and draws_i");
+}
+
+std::string group_range(const Capacity& c) {
+  return "1 <= n_i <= " + std::to_string(c.most) + of_lanes(c, "n_i") + ", " + std::to_string(c.lanes) +
+         " exchange_i <= n_i";
 }
 
 std::string cloud_range(const Capacity& c) { return "1 <= n_i <= " + std::to_string(c.most) + of_lanes(c, "n_i"); }
@@ -92,6 +129,8 @@ const std::vector<Architecture>& architectures() {
        {kParticles, kDraws, kBurnIn, kChainMean},
        1,
        true,
+       false,
+       false,
        5,
        chain_parameters,
        chain_range,
@@ -104,17 +143,21 @@ const std::vector<Architecture>& architectures() {
        {kParticles, kDraws, kBurnIn, kChainMean},
        64,
        true,
+       false,
+       false,
        5,
        chain_parameters,
        chain_range,
        chain_capacity,
        golden_chains},
       {"sisr",
-       "bootstrap filter, one lane, systematic resampling of a step beside the next one's proposals",
+       "bootstrap filter, one lane, resampling of a step beside the next one's proposals",
        "mote_sisr",
        "mote/hardware/filters/sisr.hpp",
        {kParticles},
        1,
+       false,
+       true,
        false,
        8,
        cloud_parameters,
@@ -128,6 +171,8 @@ const std::vector<Architecture>& architectures() {
        {kParticles},
        8,
        false,
+       false,
+       false,
        8,
        cloud_parameters,
        cloud_range,
@@ -140,11 +185,27 @@ const std::vector<Architecture>& architectures() {
        {kParticles},
        1,
        false,
+       true,
+       true,
        8,
-       no_parameters,
+       loop_parameters,
        cloud_range,
        cloud_capacity,
        golden_loops},
+      {"groups",
+       "parallel particle filter: a group a lane, each resamples by itself, a ring exchanges children",
+       "mote_groups",
+       "mote/hardware/filters/groups.hpp",
+       {kParticles, kExchange},
+       8,
+       false,
+       true,
+       false,
+       8,
+       cloud_parameters,
+       group_range,
+       group_capacity,
+       golden_groups},
   };
   return all;
 }

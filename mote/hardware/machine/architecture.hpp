@@ -10,11 +10,14 @@
 #include "mote/hardware/circuit.hpp"
 #include "mote/hardware/filters/estimate.hpp"
 #include "mote/hardware/filters/imh.hpp"
+#include "mote/hardware/filters/sisr.hpp"
 
 namespace mote::hardware {
 
 /// What a run is told; a filter takes what it has a register for.
-using RunRegisters = ImhRegisters;
+struct RunRegisters : ImhRegisters {
+  std::uint32_t exchange = 0;  ///< M, particles that each group hands on
+};
 
 /// A register of a filter, written before a run starts.
 struct Register {
@@ -24,11 +27,18 @@ struct Register {
   std::uint32_t (*value)(const RunRegisters&) = nullptr;
 };
 
+/// How a filter that resamples is built.
+struct Variant {
+  Resampler resampler = Resampler::kSystematic;
+  PlainLoops loops = {};  ///< of the filter in separate loops
+};
+
 /// How large a circuit is made: what its registers may be told at most.
 struct Capacity {
   unsigned at = 10;           ///< counts go up to 2^at
   std::uint32_t most = 1024;  ///< particles; a power of two
   unsigned lanes = 1;         ///< side by side, each with its own part of the particles
+  Variant variant = {};
 
   unsigned slot_bits() const { return static_cast<unsigned>(ceil_log2(std::max(2U, most / lanes))); }
 };
@@ -53,10 +63,12 @@ struct Architecture {
   std::vector<Register> registers;                        ///< beside start, steps and busy
   unsigned most_lanes = 1;                                ///< as many as --lanes says, a power of two
   bool chain = false;                                     ///< a chain decides; estimates say how often it moved
+  bool schemes = false;                                   ///< resamples by any scheme of Resampler
+  bool loops = false;                                     ///< in loops that can be pipelined and merged
   unsigned stages = 0;                                    ///< of its pipeline, beside the model's
   std::vector<Parameter> (*parameters)(const Capacity&);  ///< that other kinds do not have
   std::string (*range)(const Capacity&);                  ///< of its registers, for the data sheet
-  Capacity (*capacity)(const RunRegisters& most, unsigned lanes);
+  Capacity (*capacity)(const RunRegisters& most, unsigned lanes, const Variant& variant);
   /// Proposals of a step, of all lanes.
   std::uint64_t offered(const RunRegisters& r, unsigned lanes) const {
     return chain ? std::uint64_t{lanes} * r.proposals(lanes) : r.particles;

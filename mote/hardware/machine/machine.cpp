@@ -94,11 +94,11 @@ void refuse_wide_sums(const Formats& f, const Capacity& capacity) {
 }  // namespace
 
 Machine::Machine(ModelCircuit model, const Architecture& architecture, const RunRegisters& most, std::uint64_t seed,
-                 unsigned lanes)
+                 unsigned lanes, const Variant& variant)
     : name_("mote_" + model.name + "_" + std::string(architecture.name)),
       model_(std::move(model)),
       architecture_(&architecture),
-      capacity_(architecture.capacity(most, lanes)),
+      capacity_(architecture.capacity(most, lanes, variant)),
       seed_(seed) {
   std::replace(name_.begin(), name_.end(), '-', '_');
   refuse_wide_sums(formats(), capacity_);

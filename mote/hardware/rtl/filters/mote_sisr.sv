@@ -1,23 +1,25 @@
 // The bootstrap filter, merged and overlapped, by one lane or several: propagate, weigh and sum in one pass; the resampling
 // of a step walks beside the propagation of the next.
 //
-//   x' ~ p(. | x_a(j)),  lw = log2 p(y | x'),  a(j) by systematic resampling, every step
+//   x' ~ p(. | x_a(j)),  lw = log2 p(y | x'),  a(j) by resampling, every step
 //   mean = sum w x' / sum w, before resampling
 //
-// One lane resamples by mote_systematic, several by mote_offspring and mote_children; lane l has the children Lanes k + l.
+// One lane resamples by a Scheme of mote_resampler, several by mote_offspring and mote_children (Scheme 0); lane l has the
+// children Lanes k + l.
 // The arithmetic of a model is outside, as for mote_imh. t_o and obs_o stand from 3 cycles before the first state of a
 // step reaches propose until its last leaves weigh. At t = 1 the parent's state is undefined.
 //
 // formats  states: Dims signed words of ValueWidth bits; log weights: signed, octaves, 10 fraction bits
 // range    Lanes 1, 2, 4 or 8; n_i a multiple of it, at most 2^At; At >= 2, with several lanes At >= 6 and
-//          n_i >= Lanes. Registers are read at start_i
+//          n_i >= Lanes; Scheme 1 At >= 6. Registers are read at start_i
 // timing   a particle a cycle and lane, as long as there are parents; a step's first are there 15 cycles (with several
-//          lanes 19 + log2 Lanes) after its last state left weigh, or when its first row with children is reached. The
-//          golden model counts cycles exactly
+//          lanes 19 + log2 Lanes) after its last state left weigh, or when its first row with children is reached; by
+//          other schemes than systematic later. The golden model counts cycles exactly
 // golden   mote/hardware/filters/sisr.hpp
 // source   FPGA (merged loops, dataflow); Kitagawa 1996
 module mote_sisr #(
     parameter int unsigned Lanes          = 1,
+    parameter int unsigned Scheme         = 0,
     parameter int unsigned Dims           = 1,
     parameter int unsigned ValueWidth     = 18,
     parameter int unsigned ObsWidth       = 32,
@@ -172,20 +174,19 @@ module mote_sisr #(
   end
 
   // ---- resampling
-  logic total_valid;
+  logic [15:0] estimates_left_q;
+  logic total_valid, draws;
   logic [SumWidth-1:0] total;
   logic [31:0] resample_word;
-  logic unused_word;
-  assign unused_word = ^resample_word[7:0];
   mote_valid #(.Depth(Lanes > 1 ? 2 : 1)) u_total_valid (.clk_i, .rst_ni, .valid_i(kept_last), .valid_o(total_valid));
   mote_words #(.Seed(Seed), .Stream(Stream)) u_resample_words (
-      .clk_i, .rst_ni, .advance_i(total_valid), .word_o(resample_word));
+      .clk_i, .rst_ni, .advance_i(draws), .word_o(resample_word));
   logic takes;
   assign takes = issued_q != n_q && !first_q;
   if (Lanes == 1) begin : gen_walk
     logic scale_known;
     mote_valid #(.Depth(2)) u_scale_known (.clk_i, .rst_ni, .valid_i(weighed_last), .valid_o(scale_known));
-    mote_systematic #(.At(At), .Width(WeightWidth), .ScaleWidth(ScaleWidth)) u_systematic (
+    mote_resampler #(.Scheme(Scheme), .At(At), .Width(WeightWidth), .ScaleWidth(ScaleWidth)) u_resampler (
         .clk_i, .rst_ni,
         .drop_i(starts),
         .n_i(n_q),
@@ -196,13 +197,17 @@ module mote_sisr #(
         .last_scale_i(scale_early),
         .total_valid_i(total_valid),
         .total_i(total),
-        .uniform_i(resample_word[31:8]),
+        .more_i(estimates_left_q != '0),
+        .draw_o(draws),
+        .word_i(resample_word),
         .valid_o(parent_valid),
         .ready_i(takes),
         .parent_o(parent));
   end else begin : gen_rows
     localparam int unsigned RowWidth = SlotWidth - 1;
-    logic row_valid, row_pop, unused_scale;
+    logic row_valid, row_pop, unused_scale, unused_word;
+    assign draws = total_valid;
+    assign unused_word = ^resample_word[7:0];
     logic drops, drops_q;  // rows under way when a run ends come in until the next one's first weight
     assign drops = starts || drops_q && !kept_valid_o;
     always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -239,7 +244,6 @@ module mote_sisr #(
   end
 
   // ---- estimates
-  logic [15:0] estimates_left_q;
   logic unused_pending;
   logic [At:0] unused_accepted;
   always_ff @(posedge clk_i or negedge rst_ni) begin

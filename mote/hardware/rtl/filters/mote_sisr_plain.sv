@@ -2,12 +2,12 @@
 // estimates and sets, bit for bit.
 //
 //   propagate  x'_j ~ p(. | x_a(j))       weigh    lw_j = log2 p(y | x'_j)
-//   normalise  w_j = 2^lw_j, sums         resample a(j) by mote_systematic
+//   normalise  w_j = 2^lw_j, sums         resample a(j) by a Scheme of mote_resampler
 //
 // Pipelined 0: a loop's next turn begins when the one before is through; 1: turns follow each other cycle by cycle.
 // Merged 1: the first three loops are one. Ports, formats and words are mote_sisr's.
 //
-// range    1 <= n_i <= 2^At, At >= 2. Registers are read at start_i
+// range    1 <= n_i <= 2^At, At >= 2, Scheme 1 At >= 6. Registers are read at start_i
 // timing   turns of ProposeLatency + 5, WeighLatency + 3, 8 and 8 cycles (merged: ProposeLatency + WeighLatency + 10, 8), or
 //          of one cycle and the rest once a loop; the golden model counts cycles exactly
 // golden   mote/hardware/filters/sisr.hpp (PlainLoops)
@@ -15,6 +15,7 @@
 module mote_sisr_plain #(
     parameter int unsigned Pipelined      = 0,
     parameter int unsigned Merged         = 0,
+    parameter int unsigned Scheme         = 0,
     parameter int unsigned Dims           = 1,
     parameter int unsigned ValueWidth     = 18,
     parameter int unsigned ObsWidth       = 32,
@@ -203,13 +204,13 @@ module mote_sisr_plain #(
 
   // ---- resample
   logic [31:0] resample_word;
-  logic unused_word, parent_valid;
-  assign unused_word = ^resample_word[7:0];
+  logic [15:0] estimates_left_q;
+  logic draws, parent_valid;
   mote_valid #(.Depth(2)) u_scale_known (.clk_i, .rst_ni, .valid_i(weighed_last), .valid_o(scale_known));
   mote_valid #(.Depth(1)) u_total_valid (.clk_i, .rst_ni, .valid_i(weight_last), .valid_o(total_valid));
   mote_words #(.Seed(Seed), .Stream(Stream)) u_resample_words (
-      .clk_i, .rst_ni, .advance_i(total_valid), .word_o(resample_word));
-  mote_systematic #(.At(At), .Width(WeightWidth), .ScaleWidth(ScaleWidth)) u_systematic (
+      .clk_i, .rst_ni, .advance_i(draws), .word_o(resample_word));
+  mote_resampler #(.Scheme(Scheme), .At(At), .Width(WeightWidth), .ScaleWidth(ScaleWidth)) u_resampler (
       .clk_i, .rst_ni,
       .drop_i(starts),
       .n_i(n_q),
@@ -220,7 +221,9 @@ module mote_sisr_plain #(
       .last_scale_i(scale_early),
       .total_valid_i(total_valid),
       .total_i(total),
-      .uniform_i(resample_word[31:8]),
+      .more_i(estimates_left_q != '0),
+      .draw_o(draws),
+      .word_i(resample_word),
       .valid_o(parent_valid),
       .ready_i(resample_valid),
       .parent_o(parent));
@@ -233,7 +236,6 @@ module mote_sisr_plain #(
   end
 
   // ---- estimates
-  logic [15:0] estimates_left_q;
   logic unused_pending;
   logic [At:0] unused_accepted;
   always_ff @(posedge clk_i or negedge rst_ni) begin
