@@ -54,6 +54,22 @@ RunRecord record_of(const FilterCircuit& circuit, const CircuitDesign& design, c
   return record;
 }
 
+/// A run of the golden model by the design's seed.
+struct GoldenEstimates {
+  std::vector<hardware::Estimate> estimates;
+  std::uint64_t cycles;
+};
+GoldenEstimates golden_estimates(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
+                                 const std::string& where) {
+  const auto golden =
+      design.architecture->golden(circuit.datapath.arithmetic, design.seed, circuit.machine->capacity());
+  golden->start(design.registers);
+  GoldenEstimates found;
+  for (const auto& step : observed_by(circuit, recording, where)) found.estimates.push_back(golden->step(step));
+  found.cycles = golden->cycles();
+  return found;
+}
+
 }  // namespace
 
 std::vector<std::vector<std::int64_t>> observed_by(const FilterCircuit& circuit, const Recording& recording,
@@ -88,12 +104,12 @@ CircuitSimulation simulated_run(const FilterCircuit& circuit, const CircuitDesig
 
 RunRecord golden_run(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
                      const std::string& where) {
-  const auto golden =
-      design.architecture->golden(circuit.datapath.arithmetic, design.seed, circuit.machine->capacity());
-  golden->start(design.registers);
-  std::vector<hardware::Estimate> estimates;
-  for (const auto& step : observed_by(circuit, recording, where)) estimates.push_back(golden->step(step));
-  return record_of(circuit, design, recording, estimates);
+  return record_of(circuit, design, recording, golden_estimates(circuit, design, recording, where).estimates);
+}
+
+std::uint64_t golden_cycles(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
+                            const std::string& where) {
+  return golden_estimates(circuit, design, recording, where).cycles;
 }
 
 std::string circuit_estimates_csv(const RunRecord& record, bool chain) {

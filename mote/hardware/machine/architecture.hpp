@@ -63,8 +63,6 @@ struct Architecture {
   std::vector<Register> registers;                        ///< beside start, steps and busy
   unsigned most_lanes = 1;                                ///< as many as --lanes says, a power of two
   bool chain = false;                                     ///< a chain decides; estimates say how often it moved
-  bool schemes = false;                                   ///< resamples by any scheme of Resampler
-  bool loops = false;                                     ///< in loops that can be pipelined and merged
   unsigned stages = 0;                                    ///< of its pipeline, beside the model's
   std::vector<Parameter> (*parameters)(const Capacity&);  ///< that other kinds do not have
   std::string (*range)(const Capacity&);                  ///< of its registers, for the data sheet
@@ -74,6 +72,8 @@ struct Architecture {
     return chain ? std::uint64_t{lanes} * r.proposals(lanes) : r.particles;
   }
   std::unique_ptr<Golden> (*golden)(const Arithmetic&, std::uint64_t seed, const Capacity&);
+  bool schemes = false;  ///< resamples by any scheme of Resampler
+  bool loops = false;    ///< in loops that can be pipelined and merged
 };
 
 /// All kinds, the simplest first.
