@@ -47,18 +47,18 @@ Estimate Groups::step(Observed observed) {
 
 /// The groups' walks side by side: a child of each when all have a parent for it.
 void Groups::choose_parents() {
-  const Formats& f = arithmetic_.formats;
   std::vector<std::unique_ptr<ParentWalk>> walks;
   for (Group& group : groups_)
-    walks.push_back(group.resampler.walk({group.weights, group.total, written_}, f.weight_bits, f.count_bits));
-  std::vector<std::uint32_t> parents(groups_.size());
+    walks.push_back(group.resampler.walk({group.weights, group.total, written_}, arithmetic_.formats, 1));
+  std::vector<std::uint32_t> parents;
   const std::size_t n = issued_.size();
   std::size_t behind = n / 2;
   for (std::size_t child = 0; child < n;) {
     const std::uint64_t now = walks.front()->now();
-    const bool taken =
-        now > pace_.begun() && std::all_of(walks.begin(), walks.end(), [](const auto& walk) { return walk->shows(); });
-    for (std::size_t l = 0; l < walks.size(); ++l) walks[l]->cycle(taken, parents[l]);
+    const bool taken = now > pace_.begun() + 1 &&
+                       std::all_of(walks.begin(), walks.end(), [](const auto& walk) { return walk->shows(); });
+    parents.clear();
+    for (const auto& walk : walks) walk->cycle(taken, parents);
     if (!taken) continue;
     behind += exchange_;
     take_parents(child, behind >= n, parents);
@@ -98,14 +98,14 @@ Estimate Groups::infer() {
   const Formats& f = arithmetic_.formats;
   scale_weights(log_weights_, groups_.size(), f.weight_bits, weights_);
   const std::uint64_t total = sum_of(weights_);
-  return {weighted_means(set_, weights_, total, f.extra_bits), total, weights_.back().scale, 0};
+  return {weighted_means(set_, weights_, total, f), total, weights_.back().scale, 0};
 }
 
 void Groups::keep_time() {
   const Formats& f = arithmetic_.formats;
-  if (t_ == 1) std::iota(issued_.begin(), issued_.end(), pace_.begun() + 1);
-  const std::uint64_t model = 3 + f.propose_latency + f.weigh_latency;
-  for (std::size_t k = 0; k < issued_.size(); ++k) written_[k] = issued_[k] + model + 5;
+  if (t_ == 1) std::iota(issued_.begin(), issued_.end(), pace_.begun() + 2);
+  const std::uint64_t model = 2 + f.propose_latency + f.weigh_latency;
+  for (std::size_t k = 0; k < issued_.size(); ++k) written_[k] = issued_[k] + model + weight_cycles(1);
   pace_.free_from(issued_.back() + model);
   pace_.sums_stand(written_.back() + 4 + row_cycles(groups_.size()) + kCommonScale, division_cycles(f));
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "mote/hardware/filters/weights.hpp"
 
@@ -10,14 +11,14 @@ namespace mote::hardware {
 
 /// What a step leaves to resample from.
 ///
-/// shape   weights, written: (n), n >= 1
+/// shape   weights: (n), n >= 1, a multiple of the lanes; written: (n / lanes)
 struct Weighed {
   std::span<const ScaledWeight> weights;
   std::uint64_t total;                     ///< their sum, at the scale of the last
-  std::span<const std::uint64_t> written;  ///< the cycle in which each weight is written
+  std::span<const std::uint64_t> written;  ///< the cycle in which each slot's weights are written
 };
 
-/// Parents in the order of the children, each there from some cycle on; `now` begins early enough for all of them.
+/// Parents in the order of the children, one for each lane at a time.
 class ParentWalk {
  public:
   ParentWalk() = default;
@@ -27,10 +28,11 @@ class ParentWalk {
   ParentWalk& operator=(const ParentWalk&) = delete;
   ParentWalk& operator=(ParentWalk&&) = delete;
 
-  /// Whether a parent is there in this cycle.
+  /// Whether the next parents are there in this cycle.
   virtual bool shows() const = 0;
-  /// Goes on by a cycle, in which the next parent is taken if `ready`; says whether one was there and taken.
-  virtual bool cycle(bool ready, std::uint32_t& parent) = 0;
+  /// Goes on by a cycle, in which the next parents are taken if `ready`, and put behind `parents`; says whether they
+  /// were.
+  virtual bool cycle(bool ready, std::vector<std::uint32_t>& parents) = 0;
   virtual std::uint64_t now() const = 0;
 };
 

@@ -1,35 +1,45 @@
 #include "mote/hardware/filters/resampler.hpp"
 
+#include "mote/hardware/filters/offspring.hpp"
 #include "mote/hardware/filters/residual.hpp"
 #include "mote/hardware/filters/roulette.hpp"
-#include "mote/hardware/filters/systematic.hpp"
 
 namespace mote::hardware {
 namespace {
 
-/// The walk of mote_systematic with the sums that it goes along.
-class OwnSystematicWalk final : public ParentWalk {
+/// The walk over ends, and the parents that it finds.
+class SystematicWalk final : public ParentWalk {
  public:
-  OwnSystematicWalk(const Weighed& weighed, std::uint32_t uniform)
-      : sums_(cumulative_sums(weighed.weights)),
-        walk_(sums_, weighed.total, uniform, weighed.written, weighed.written.back() - 3) {}
+  SystematicWalk(const Weighed& weighed, const Offspring& offspring, unsigned lanes, std::uint32_t uniform)
+      : lanes_(lanes),
+        ends_(offspring.ends(weighed.weights, weighed.total, uniform)),
+        parents_(parents_of(ends_)),
+        next_(parents_.begin()),
+        walk_(ends_, lanes, weighed.written.back()) {}
 
   bool shows() const override { return walk_.shows(); }
-  bool cycle(bool ready, std::uint32_t& parent) override { return walk_.cycle(ready, parent); }
+  bool cycle(bool ready, std::vector<std::uint32_t>& parents) override {
+    if (!walk_.cycle(ready)) return false;
+    parents.insert(parents.end(), next_, next_ + lanes_);
+    next_ += lanes_;
+    return true;
+  }
   std::uint64_t now() const override { return walk_.now(); }
 
  private:
-  std::vector<std::uint64_t> sums_;
-  SystematicWalk walk_;
+  std::ptrdiff_t lanes_;
+  std::vector<std::uint32_t> ends_, parents_;
+  std::vector<std::uint32_t>::const_iterator next_;
+  ChildrenWalk walk_;
 };
 
 }  // namespace
 
-std::unique_ptr<ParentWalk> ResamplerWords::walk(const Weighed& weighed, unsigned weight_bits, unsigned count_bits) {
-  if (scheme_ == Resampler::kSystematic) return std::make_unique<OwnSystematicWalk>(weighed, step_);
-  if (scheme_ == Resampler::kResidualSystematic)
-    return std::make_unique<ResidualWalk>(weighed, weight_bits, count_bits, step_);
-  return std::make_unique<RouletteWalk>(weighed, count_bits, words_);
+std::unique_ptr<ParentWalk> ResamplerWords::walk(const Weighed& weighed, const Formats& formats, unsigned lanes) {
+  const Offspring offspring{formats.weight_bits, formats.count_bits};
+  if (scheme_ == Resampler::kSystematic) return std::make_unique<SystematicWalk>(weighed, offspring, lanes, step_);
+  if (scheme_ == Resampler::kResidualSystematic) return std::make_unique<ResidualWalk>(weighed, offspring, step_);
+  return std::make_unique<RouletteWalk>(weighed, formats.count_bits, words_);
 }
 
 }  // namespace mote::hardware

@@ -1,5 +1,5 @@
 #pragma once
-/// The schemes by which a circuit of one lane, or each group of one, resamples: rtl/filters/mote_resampler.sv.
+/// The schemes by which a circuit resamples: rtl/filters/mote_resample.sv.
 
 #include <memory>
 
@@ -9,11 +9,11 @@
 
 namespace mote::hardware {
 
-/// The numbers are those of mote_resampler.
+/// The numbers are those of mote_resample.
 enum class Resampler {
-  kSystematic,          ///< one uniform number a step; two weights a cycle, no division
-  kResidualSystematic,  ///< the same with a division; a weight a cycle
-  kRoulette,            ///< a uniform number for each child, sought among the cumulative sums
+  kSystematic,          ///< one uniform number a step; rows of weights, by their cumulative sums
+  kResidualSystematic,  ///< the same children; a weight after the other, by what is left of the one before. One lane
+  kRoulette,            ///< a uniform number for each child, sought among the cumulative sums. One lane
 };
 
 /// Where a scheme's uniform words come from: one a step is drawn as the step ends, those of the children as they are.
@@ -25,17 +25,15 @@ class ResamplerWords {
   void end_step() {
     if (scheme_ != Resampler::kRoulette) step_ = words_.next() >> 8;
   }
-  /// The number of the step that ended, 24 bits.
-  std::uint32_t step_number() const { return step_; }
-  /// The walk over what the step left. `count_bits`: At of the circuit, n <= 2^At.
+  /// The walk over what the step left, which `lanes` go along.
   ///
   /// cost    O(n) cycles of about 10 ns
-  std::unique_ptr<ParentWalk> walk(const Weighed& weighed, unsigned weight_bits, unsigned count_bits);
+  std::unique_ptr<ParentWalk> walk(const Weighed& weighed, const Formats& formats, unsigned lanes);
 
  private:
   Resampler scheme_;
   Words words_;
-  std::uint32_t step_ = 0;
+  std::uint32_t step_ = 0;  ///< the number of the step that ended, 24 bits
 };
 
 }  // namespace mote::hardware

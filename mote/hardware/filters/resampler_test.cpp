@@ -10,7 +10,7 @@ namespace mote::hardware {
 namespace {
 
 constexpr std::size_t kParticles = 40;
-constexpr unsigned kCountBits = 6;
+const Formats kFormats{.count_bits = 6};
 
 /// Weights over several scales, so that early ones are lowered, and their shares of the sum.
 struct Set {
@@ -40,11 +40,11 @@ struct Children {
     std::vector<double> squares(kParticles);
     for (int k = 0; k < times; ++k) {
       words.end_step();
-      const auto walk = words.walk({set.weights, sum_of(set.weights), written}, 24, kCountBits);
+      const auto walk = words.walk({set.weights, sum_of(set.weights), written}, kFormats, 1);
       std::vector<double> children(kParticles);
-      std::uint32_t parent = 0;
-      for (std::size_t child = 0; child < kParticles;)
-        if (walk->cycle(true, parent)) ++children[parent], ++child;
+      std::vector<std::uint32_t> parents;
+      while (parents.size() < kParticles) walk->cycle(true, parents);
+      for (const std::uint32_t parent : parents) ++children[parent];
       for (std::size_t i = 0; i < kParticles; ++i) mean[i] += children[i], squares[i] += children[i] * children[i];
     }
     for (std::size_t i = 0; i < kParticles; ++i) {
@@ -108,15 +108,14 @@ TEST(ResidualWalk, ReadsAWeightACycle) {
   const std::vector<std::uint64_t> written{1, 2, 3, 4};
   ResamplerWords words(Resampler::kResidualSystematic, Words(1, 0));
   words.end_step();
-  const auto walk = words.walk({weights, sum_of(weights), written}, 24, kCountBits);
+  const auto walk = words.walk({weights, sum_of(weights), written}, kFormats, 1);
   std::vector<std::uint64_t> taken;
-  std::uint32_t parent = 0;
+  std::vector<std::uint32_t> parents;
   while (taken.size() < 4) {
     const std::uint64_t now = walk->now();
-    if (!walk->cycle(true, parent)) continue;
-    EXPECT_EQ(parent, 2U);
-    taken.push_back(now);
+    if (walk->cycle(true, parents)) taken.push_back(now);
   }
+  EXPECT_EQ(parents, (std::vector<std::uint32_t>(4, 2)));
   EXPECT_EQ(taken, (std::vector<std::uint64_t>{18, 19, 20, 21}));
 }
 

@@ -1,7 +1,5 @@
 #include "mote/hardware/filters/residual.hpp"
 
-#include "mote/hardware/filters/offspring.hpp"
-
 namespace mote::hardware {
 namespace {
 
@@ -10,17 +8,16 @@ constexpr std::uint64_t kFirstRead = 2;  ///< cycles from writing the last weigh
 
 }  // namespace
 
-ResidualWalk::ResidualWalk(const Weighed& weighed, unsigned weight_bits, unsigned count_bits, std::uint32_t uniform)
-    : ends_(Offspring{weight_bits, count_bits}.ends(weighed.weights, weighed.total, uniform)),
-      now_(weighed.written.back() + kFirstRead) {}
+ResidualWalk::ResidualWalk(const Weighed& weighed, const Offspring& offspring, std::uint32_t uniform)
+    : ends_(offspring.ends(weighed.weights, weighed.total, uniform)), now_(weighed.written.back() + kFirstRead) {}
 
-bool ResidualWalk::cycle(bool ready, std::uint32_t& parent) {
+bool ResidualWalk::cycle(bool ready, std::vector<std::uint32_t>& parents) {
   const bool taken = ready && shows();
   const bool reads = read_ < ends_.size() && room_ > 0;
   std::size_t freed = 0;
   if (taken) {
-    parent = parents_.front();
-    if (++shown_ == children(parent)) {
+    parents.push_back(parents_.front());
+    if (++shown_ == children(parents_.front())) {
       parents_.pop_front();
       shown_ = 0;
       ++freed;

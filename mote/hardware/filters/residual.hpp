@@ -5,6 +5,7 @@
 #include <deque>
 #include <vector>
 
+#include "mote/hardware/filters/offspring.hpp"
 #include "mote/hardware/filters/parent_walk.hpp"
 
 namespace mote::hardware {
@@ -12,16 +13,16 @@ namespace mote::hardware {
 /// Residual-systematic resampling, a weight a cycle. Its children are those of Offspring: what a weight's part of T
 /// lacks of a whole child is carried to the next, which adds up to the parts of the cumulative sums.
 ///
-/// shape   count_bits >= 6; uniform: 24 bits
+/// shape   uniform: 24 bits
 /// source  Bolic, Djuric & Hong 2003
 class ResidualWalk final : public ParentWalk {
  public:
   static constexpr std::size_t kParents = 128;  ///< what the queue holds
 
-  ResidualWalk(const Weighed& weighed, unsigned weight_bits, unsigned count_bits, std::uint32_t uniform);
+  ResidualWalk(const Weighed& weighed, const Offspring& offspring, std::uint32_t uniform);
 
   bool shows() const override { return !parents_.empty(); }
-  bool cycle(bool ready, std::uint32_t& parent) override;
+  bool cycle(bool ready, std::vector<std::uint32_t>& parents) override;
   std::uint64_t now() const override { return now_; }
 
  private:

@@ -10,9 +10,8 @@ std::vector<std::uint64_t> sums_below_last(std::span<const ScaledWeight> weights
   std::vector<std::uint64_t> sums;
   std::uint64_t sum = 0;
   for (const ScaledWeight& w : weights.first(weights.size() - 1)) {
-    sum = (sum >> (kQuantum * w.rise)) + w.weight;
-    const std::int64_t by = weights.back().scale - w.scale;
-    sums.push_back(by > 7 ? 0 : sum >> (kQuantum * static_cast<unsigned>(by)));
+    sum = lowered(sum, w.rise) + w.weight;
+    sums.push_back(lowered(sum, quanta_between(w.scale, weights.back().scale)));
   }
   return sums;
 }
@@ -34,9 +33,9 @@ RouletteWalk::RouletteWalk(const Weighed& weighed, unsigned count_bits, Words& w
   }
 }
 
-bool RouletteWalk::cycle(bool ready, std::uint32_t& parent) {
+bool RouletteWalk::cycle(bool ready, std::vector<std::uint32_t>& parents) {
   const bool taken = ready && shows();
-  if (taken) parent = parents_[taken_++];
+  if (taken) parents.push_back(parents_[taken_++]);
   ++now_;
   return taken;
 }

@@ -21,7 +21,7 @@ class RouletteWalk final : public ParentWalk {
   RouletteWalk(const Weighed& weighed, unsigned count_bits, Words& words);
 
   bool shows() const override { return taken_ < parents_.size() && now_ >= first_ + taken_; }
-  bool cycle(bool ready, std::uint32_t& parent) override;
+  bool cycle(bool ready, std::vector<std::uint32_t>& parents) override;
   std::uint64_t now() const override { return now_; }
 
  private:

@@ -6,7 +6,6 @@
 
 #include "mote/hardware/filters/arithmetic.hpp"
 #include "mote/hardware/filters/estimate.hpp"
-#include "mote/hardware/filters/offspring.hpp"
 #include "mote/hardware/filters/pace.hpp"
 #include "mote/hardware/filters/resampler.hpp"
 
@@ -41,10 +40,8 @@ class Sisr {
   std::uint64_t cycles() const { return pace_.left(); }
 
  private:
-  std::unique_ptr<ParentWalk> parent_walk();
-  std::vector<std::uint32_t> walk_alone();
-  std::vector<std::uint32_t> walk_abreast();
-  std::vector<std::uint32_t> walk_last();
+  std::vector<std::uint32_t> walk_beside(ParentWalk& walk);
+  std::vector<std::uint32_t> walk_last(ParentWalk& walk);
   void choose_parents();
   Estimate infer();
   void keep_time();

@@ -74,15 +74,15 @@ Capacity chain_capacity(const RunRegisters& r, unsigned lanes, const Variant&) {
   return {std::max(bits_for(lanes * r.proposals(lanes)), bits_for(most)), most, lanes};
 }
 
-unsigned least_bits(const Variant& variant) { return variant.resampler == Resampler::kResidualSystematic ? 6 : 2; }
+constexpr unsigned kLeastBits = 6;  ///< of the counts of what resamples
 
 Capacity cloud_capacity(const RunRegisters& r, unsigned lanes, const Variant& variant) {
-  const unsigned at = std::max(lanes > 1 ? 6U : least_bits(variant), bits_for(r.particles));
+  const unsigned at = std::max(kLeastBits, bits_for(r.particles));
   return {at, 1U << at, lanes, variant};
 }
 
 Capacity group_capacity(const RunRegisters& r, unsigned lanes, const Variant& variant) {
-  const unsigned at = std::max(least_bits(variant) + bits_for(lanes), bits_for(r.particles));
+  const unsigned at = std::max(kLeastBits + bits_for(lanes), bits_for(r.particles));
   return {at, 1U << at, lanes, variant};
 }
 
@@ -153,7 +153,7 @@ const std::vector<Architecture>& architectures() {
        {kParticles},
        1,
        false,
-       8,
+       5,
        cloud_parameters,
        cloud_range,
        cloud_capacity,
@@ -166,7 +166,7 @@ const std::vector<Architecture>& architectures() {
        {kParticles},
        8,
        false,
-       8,
+       6,
        cloud_parameters,
        cloud_range,
        cloud_capacity,
@@ -178,7 +178,7 @@ const std::vector<Architecture>& architectures() {
        {kParticles},
        1,
        false,
-       8,
+       6,
        loop_parameters,
        cloud_range,
        cloud_capacity,
@@ -192,7 +192,7 @@ const std::vector<Architecture>& architectures() {
        {kParticles, kExchange},
        8,
        false,
-       8,
+       5,
        cloud_parameters,
        group_range,
        group_capacity,

@@ -51,8 +51,7 @@ void write_machine(const Machine& machine, const std::string& folder) {
 
 Cost xc7_cost(const Machine& machine, const std::string& folder) {
   const std::string netlist = folder + "netlist.json";
-  const Area area = xc7_area(cells_after(
-      folder, "synth_xilinx -family xc7 -flatten -noiopad -top " + machine.name() + "; write_json " + netlist));
+  const Area area = xc7_area(cells_after(folder, xc7_script(machine.name()) + "; write_json " + netlist));
   const SlowestPath path = slowest_path(read_text(netlist), machine.name());
   const double mhz = 1000 * (1 - kWireShare) / path.ns;
   return {"XC7A100T-1 after synthesis; slowest path " + short_number(path.ns) + " ns of cells (" + path.cells + ")",

@@ -1,7 +1,7 @@
 // The parallel particle filter: a group of particles in each lane, which resamples by itself, hands some of its children on
 // to the next group of a ring, and gives its part of the estimate by its weight.
 //
-//   x' ~ p(. | x_a(j)),  lw = log2 p(y | x'),  a(j) by a Scheme of mote_resampler inside the group, every step
+//   x' ~ p(. | x_a(j)),  lw = log2 p(y | x'),  a(j) by a Scheme of mote_resample inside the group, every step
 //   M of a group's children, evenly spread over them, have the parents that the group before it has drawn for its own
 //   mean = sum w x' / sum w over all groups, before resampling: group means by group weights
 //
@@ -12,7 +12,7 @@
 //
 // formats  states: Dims signed words of ValueWidth bits; log weights: signed, octaves, 10 fraction bits
 // range    Lanes 1, 2, 4 or 8; n_i a multiple of it, at least Lanes and at most 2^At; 0 <= exchange_i <= n_i / Lanes;
-//          2^At / Lanes at least 4, Scheme 1 at least 64. Registers are read at start_i
+//          2^At / Lanes at least 64. Registers are read at start_i
 // timing   a particle a cycle and lane, as long as every group has a parent; else as mote_sisr. The golden model counts
 //          cycles exactly
 // golden   mote/hardware/filters/groups.hpp
@@ -74,12 +74,14 @@ module mote_groups #(
     output logic signed [ScaleWidth-1:0]           est_scale_o
 );
   localparam int unsigned LaneBits = $clog2(Lanes);
+  localparam int unsigned WeightLatency = 3;
   localparam int unsigned GroupSumWidth = WeightWidth + SlotWidth;
   typedef logic [SlotWidth:0] count_t;  // of a group
 
   // ---- steps: each begins when the model has weighed the one before
-  count_t n_q, issued_q, weighed_q;
-  logic starts, begins, weighed_valid, weighed_last, issues, takes, first_q, all_show, unused_none_left, unused_count;
+  count_t n_q, issue_left_q, weigh_left_q;
+  logic starts, begins, begun_q, issues_q, issues, issues_last, first_q, takes, all_show, unused_none_left, unused_count;
+  logic weighed_valid, weighed_last, weighed_first_q;
   logic [Lanes-1:0] parent_valid;
   mote_steps #(.ObsWidth(ObsWidth)) u_steps (
       .clk_i, .rst_ni, .start_i, .steps_i, .busy_o, .starts_o(starts),
@@ -87,30 +89,31 @@ module mote_groups #(
       .free_i(weighed_last), .begins_o(begins), .none_left_o(unused_none_left), .t_o, .obs_o,
       .est_taken_i(est_valid_o && est_ready_i), .est_last_i(est_last_o));
   assign all_show = &parent_valid;
-  assign takes = issued_q != n_q && !first_q && all_show;
-  assign issues = issued_q != n_q && (first_q || all_show);
+  assign takes = issues_q && !first_q && all_show;
+  assign issues = issues_q && (first_q || all_show);
+  assign issues_last = issues && issue_left_q == (SlotWidth + 1)'(1);
   assign unused_count = ^exchange_i;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      n_q      <= '0;
-      issued_q <= '0;
+      begun_q  <= 1'b0;
+      issues_q <= 1'b0;
       first_q  <= 1'b0;
-    end else if (starts) begin
-      n_q      <= (SlotWidth + 1)'(n_i >> LaneBits);
-      issued_q <= (SlotWidth + 1)'(n_i >> LaneBits);
-      first_q  <= 1'b1;
-    end else if (begins) begin
-      first_q  <= t_o == '0;
-      issued_q <= '0;
-    end else if (issues) begin
-      issued_q <= issued_q + (SlotWidth + 1)'(1);
+    end else begin
+      begun_q  <= begins;
+      issues_q <= begun_q || issues_q && !issues_last;
+      if (begins) first_q <= t_o == '0;
     end
+  end
+  always_ff @(posedge clk_i) begin
+    if (starts) n_q <= (SlotWidth + 1)'(n_i >> LaneBits);
+    if (begun_q) issue_left_q <= n_q;
+    else if (issues) issue_left_q <= issue_left_q - (SlotWidth + 1)'(1);
   end
 
   // ---- which children are exchanged: M of n, evenly spread
   count_t exchange_q, behind_q;
   logic [SlotWidth+1:0] ahead;
-  logic exchanges, exchanges3;
+  logic exchanges, exchanges2;
   assign ahead = (SlotWidth + 2)'(behind_q) + (SlotWidth + 2)'(exchange_q);
   assign exchanges = ahead >= (SlotWidth + 2)'(n_q);
   always_ff @(posedge clk_i) begin
@@ -118,14 +121,13 @@ module mote_groups #(
     if (begins) behind_q <= n_q >> 1;
     else if (issues) behind_q <= (SlotWidth + 1)'(ahead) - (exchanges ? n_q : '0);
   end
-  mote_delay #(.Width(1), .Depth(3)) u_exchanges (.clk_i, .d_i(exchanges), .d_o(exchanges3));
+  mote_delay #(.Width(1), .Depth(2)) u_exchanges (.clk_i, .d_i(exchanges), .d_o(exchanges2));
 
   // ---- particles: a memory a group, and the ring
   logic [SlotWidth-1:0] slot_q;
   logic bank_q;
-  logic [Lanes*SlotWidth-1:0] parent, parent_q;
+  logic [Lanes*SlotWidth-1:0] parent;
   logic [Lanes*StateWidth-1:0] read;
-  always_ff @(posedge clk_i) parent_q <= parent;
   for (genvar l = 0; l < Lanes; l++) begin : gen_set
     localparam int unsigned Before = (l + Lanes - 1) % Lanes;
     mote_ram #(.Width(StateWidth), .Words(2 << SlotWidth)) u_states (
@@ -133,13 +135,13 @@ module mote_groups #(
         .write_i(kept_valid_o),
         .write_at_i({bank_q, slot_q}),
         .write_word_i(kept_state_o[l*StateWidth+:StateWidth]),
-        .read_at_i({~bank_q, parent_q[l*SlotWidth+:SlotWidth]}),
+        .read_at_i({~bank_q, parent[l*SlotWidth+:SlotWidth]}),
         .read_word_o(read[l*StateWidth+:StateWidth]));
-    assign propose_state_o[l*StateWidth+:StateWidth] = read[(exchanges3?Before:l)*StateWidth+:StateWidth];
+    assign propose_state_o[l*StateWidth+:StateWidth] = read[(exchanges2?Before:l)*StateWidth+:StateWidth];
   end
 
   // ---- the model's arithmetic
-  mote_valid #(.Depth(3)) u_propose_valid (.clk_i, .rst_ni, .valid_i(issues), .valid_o(propose_valid_o));
+  mote_valid #(.Depth(2)) u_propose_valid (.clk_i, .rst_ni, .valid_i(issues), .valid_o(propose_valid_o));
   for (genvar l = 0; l < Lanes; l++) begin : gen_lane
     for (genvar w = 0; w < DrawWords; w++) begin : gen_words
       mote_words #(.Seed(Seed), .Stream(Stream + Lanes + DrawWords * l + w)) u_words (
@@ -151,26 +153,27 @@ module mote_groups #(
   assign weigh_state_o = propose_state_i;
   mote_valid #(.Depth(WeighLatency)) u_weighed_valid (
       .clk_i, .rst_ni, .valid_i(weigh_valid_o), .valid_o(weighed_valid));
-  mote_delay #(.Width(Lanes * StateWidth), .Depth(WeighLatency + 5)) u_state (
+  mote_delay #(.Width(Lanes * StateWidth), .Depth(WeighLatency + WeightLatency)) u_state (
       .clk_i, .d_i(propose_state_i), .d_o(kept_state_o));
-  assign weighed_last = weighed_valid && weighed_q + (SlotWidth + 1)'(1) == n_q;
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) weighed_q <= '0;
-    else if (weighed_valid) weighed_q <= weighed_last ? '0 : weighed_q + (SlotWidth + 1)'(1);
+  assign weighed_last = weighed_valid && weigh_left_q == (SlotWidth + 1)'(1);
+  always_ff @(posedge clk_i) begin
+    if (begins) weigh_left_q <= n_q;
+    else if (weighed_valid) weigh_left_q <= weigh_left_q - (SlotWidth + 1)'(1);
+    if (begins) weighed_first_q <= 1'b1;
+    else if (weighed_valid) weighed_first_q <= 1'b0;
   end
 
-  // ---- weights, at each group's scale, and slots
-  logic kept_last, weight_first, scale_known, total_valid;
-  logic [Lanes-1:0] valids, firsts;
+  // ---- slots
+  logic kept_last;
+  logic [Lanes-1:0] valids;
   logic [Lanes*WeightWidth-1:0] weight;
   logic [Lanes*ScaleWidth-1:0] scale;
   logic [15:0] estimates_left_q;
   logic unused_same;
   assign kept_valid_o = valids[0];
-  assign weight_first = firsts[0];
-  assign unused_same = ^{valids, firsts};
+  assign unused_same = ^valids;
   assign kept_slot_o = slot_q;
-  assign kept_last = kept_valid_o && (SlotWidth + 1)'(slot_q) + (SlotWidth + 1)'(1) == n_q;
+  mote_valid #(.Depth(WeightLatency)) u_kept_last (.clk_i, .rst_ni, .valid_i(weighed_last), .valid_o(kept_last));
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       slot_q <= '0;
@@ -185,61 +188,54 @@ module mote_groups #(
       else if (kept_last) estimates_left_q <= estimates_left_q - 16'd1;
     end
   end
-  mote_valid #(.Depth(2)) u_scale_known (.clk_i, .rst_ni, .valid_i(weighed_last), .valid_o(scale_known));
-  mote_valid #(.Depth(1)) u_total_valid (.clk_i, .rst_ni, .valid_i(kept_last), .valid_o(total_valid));
 
-  // ---- groups
+  // ---- groups: weights at each one's scale
   for (genvar l = 0; l < Lanes; l++) begin : gen_group
-    logic [2:0] rise;
-    logic signed [ScaleWidth-1:0] scale_early;
+    logic [1:0] rise;
     logic [GroupSumWidth-1:0] total_q;
-    logic [31:0] word;
-    logic draws;
     mote_weight #(.LogWidth(LogWidth), .Width(WeightWidth), .Table(Exp2Table)) u_weight (
         .clk_i, .rst_ni,
         .valid_i(weighed_valid),
-        .first_i(weighed_q == '0),
+        .first_i(weighed_first_q),
         .log_weight_i(weigh_log_i[l*LogWidth+:LogWidth]),
         .valid_o(valids[l]),
-        .first_o(firsts[l]),
         .rise_o(rise),
         .weight_o(weight[l*WeightWidth+:WeightWidth]),
-        .scale_o(scale[l*ScaleWidth+:ScaleWidth]),
-        .scale_early_o(scale_early));
+        .scale_o(scale[l*ScaleWidth+:ScaleWidth]));
     always_ff @(posedge clk_i) begin
       if (kept_valid_o)
-        total_q <= (weight_first ? '0 : total_q >> {rise, 3'b0}) + GroupSumWidth'(weight[l*WeightWidth+:WeightWidth]);
+        total_q <= (rise == 2'd3 ? '0 : total_q >> {rise, 3'b0}) + GroupSumWidth'(weight[l*WeightWidth+:WeightWidth]);
     end
-    mote_words #(.Seed(Seed), .Stream(Stream + l)) u_words (.clk_i, .rst_ni, .advance_i(draws), .word_o(word));
-    mote_resampler #(.Scheme(Scheme), .At(SlotWidth), .Width(WeightWidth), .ScaleWidth(ScaleWidth)) u_resampler (
+    mote_resample #(
+        .Scheme(Scheme), .At(SlotWidth), .Width(WeightWidth), .ScaleWidth(ScaleWidth), .Seed(Seed), .Stream(Stream + l)
+    ) u_resample (
         .clk_i, .rst_ni,
-        .drop_i(starts),
+        .starts_i(starts),
         .n_i(n_q),
         .write_i(kept_valid_o),
+        .last_i(kept_last),
         .weight_i(weight[l*WeightWidth+:WeightWidth]),
         .scale_i(scale[l*ScaleWidth+:ScaleWidth]),
-        .scale_known_i(scale_known),
-        .last_scale_i(scale_early),
-        .total_valid_i(total_valid),
         .total_i(total_q),
         .more_i(estimates_left_q != '0),
-        .draw_o(draws),
-        .word_i(word),
         .valid_o(parent_valid[l]),
         .ready_i(takes),
         .parent_o(parent[l*SlotWidth+:SlotWidth]));
   end
 
   // ---- weights at the scale of all groups
-  logic valid1, valid2, last2, first1_q, first2_q;
+  logic valid1, valid2, last2, first_row_q;
   logic signed [ScaleWidth-1:0] most, most1_q, most2_q;
   logic [ScaleWidth-1:0] risen;
-  logic [2:0] rise2_q;
+  logic [1:0] rise2_q;
   logic [Lanes*WeightWidth-1:0] weight1_q, weight2_q;
   logic [Lanes*ScaleWidth-1:0] scale1_q;
   logic [Lanes*StateWidth-1:0] state2;
-  function automatic logic [2:0] limited(input logic [ScaleWidth-1:0] difference);
-    limited = difference > ScaleWidth'(7) ? 3'd7 : difference[2:0];
+  function automatic logic [1:0] limited(input logic [ScaleWidth-1:0] difference);
+    limited = difference > ScaleWidth'(3) ? 2'd3 : difference[1:0];
+  endfunction
+  function automatic logic [WeightWidth-1:0] lowered(input logic [WeightWidth-1:0] from, input logic [1:0] quanta);
+    lowered = quanta == 2'd3 ? '0 : from >> {quanta, 3'b0};
   endfunction
   always_comb begin
     most = scale[0+:ScaleWidth];
@@ -255,13 +251,13 @@ module mote_groups #(
     most1_q   <= most;
     weight1_q <= weight;
     scale1_q  <= scale;
-    first1_q  <= weight_first;
-    first2_q  <= first1_q;
-    rise2_q   <= limited(risen);
+    if (starts || last2) first_row_q <= 1'b1;
+    else if (valid1) first_row_q <= 1'b0;
+    rise2_q   <= first_row_q ? 2'd3 : limited(risen);
     if (valid1) most2_q <= most1_q;
     for (int l = 0; l < Lanes; l++)
-      weight2_q[l*WeightWidth+:WeightWidth] <=
-          weight1_q[l*WeightWidth+:WeightWidth] >> {limited(most1_q - $signed(scale1_q[l*ScaleWidth+:ScaleWidth])), 3'b0};
+      weight2_q[l*WeightWidth+:WeightWidth] <= lowered(
+          weight1_q[l*WeightWidth+:WeightWidth], limited(most1_q - $signed(scale1_q[l*ScaleWidth+:ScaleWidth])));
   end
 
   // ---- estimates
@@ -275,13 +271,11 @@ module mote_groups #(
   ) u_estimate (
       .clk_i, .rst_ni,
       .weight_valid_i(valid2),
-      .weight_first_i(first2_q),
       .weight_rise_i(rise2_q),
       .weight_i(weight2_q),
       .scale_i(most2_q),
       .sum_so_far_o(unused_sum),
       .value_valid_i(valid2),
-      .value_first_i(first2_q),
       .value_rise_i(rise2_q),
       .value_weight_i(weight2_q),
       .value_i(state2),

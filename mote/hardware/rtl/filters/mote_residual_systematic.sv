@@ -1,7 +1,7 @@
 // Residual-systematic resampling: a weight a cycle, how many children it has, and what is left for the next.
 //
 //   x_i = w_i q + v_i,  n_i = floor(x_i),  v_(i+1) = x_i - n_i;   q = N / T,  T = sum w,  v_0 ~ U[0, 1) of 24 bits
-//   w_i as 17 bits of T, what is cut off is carried to the next weight; the last particle has the children that are left
+//   w_i as Width bits of T, of which all but 17 are carried to the next weight; the last particle has the children that are left
 //
 // These are mote_offspring's children: n_0 + ... + n_i = floor(C_i q + v_0). N / T is a factor (mote_reciprocal), never too
 // large. Weights are stored with the scale that they were made at and lowered to the last one's when they are read. No
@@ -25,6 +25,7 @@ module mote_residual_systematic #(
     input  logic        [At:0]           n_i,
     // weights, slot after slot
     input  logic                         write_i,
+    input  logic                         last_i,
     input  logic        [Width-1:0]      weight_i,
     input  logic signed [ScaleWidth-1:0] scale_i,
     // the end of a step
@@ -41,26 +42,26 @@ module mote_residual_systematic #(
   localparam int unsigned WordWidth = Width + ScaleWidth;
   localparam int unsigned Drop = At - 6;             // bits of N times the reciprocal that are left out
   localparam int unsigned Frac = 34 - Drop;          // fraction bits of w q
-  localparam int unsigned Rest = SumWidth - 17;      // bits of a weight that are carried to the next
+  localparam int unsigned Rest = Width - 17;         // bits of a weight that are carried to the next
+  localparam int unsigned Fraction = 16;             // that a lowered weight keeps, for the total's leading zeros
   localparam int unsigned RoomWidth = $clog2(Parents) + 1;
   localparam int unsigned ZerosWidth = $clog2(SumWidth);
   typedef logic [At:0] count_t;
 
   // ---- memory of weights, two banks
-  count_t written_q;
-  logic bank_q, last_write;
+  logic [At-1:0] written_q;
+  logic bank_q;
   logic signed [ScaleWidth-1:0] last_scale_q;
-  assign last_write = write_i && written_q + (At + 1)'(1) == n_i;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       written_q <= '0;
       bank_q    <= 1'b0;
     end else if (write_i) begin
-      written_q <= last_write ? '0 : written_q + (At + 1)'(1);
-      bank_q    <= bank_q ^ last_write;
+      written_q <= last_i ? '0 : written_q + At'(1);
+      bank_q    <= bank_q ^ last_i;
     end
   end
-  always_ff @(posedge clk_i) if (last_write) last_scale_q <= scale_i;
+  always_ff @(posedge clk_i) if (last_i) last_scale_q <= scale_i;
 
   // ---- reading, as long as the queue will have room
   logic reads, last_read, pop, left_out;
@@ -87,7 +88,7 @@ module mote_residual_systematic #(
   mote_ram #(.Width(WordWidth), .Words(2 << At)) u_weights (
       .clk_i,
       .write_i,
-      .write_at_i({bank_q, written_q[At-1:0]}),
+      .write_at_i({bank_q, written_q}),
       .write_word_i({scale_i, weight_i}),
       .read_at_i({~bank_q, slot_q}),
       .read_word_o(word));
@@ -97,11 +98,9 @@ module mote_residual_systematic #(
   logic [17:0] reciprocal;
   logic [At+18:0] product_n_q;
   logic [23:0] factor_q;
-  logic [SumWidth-1:0] total_q;
   logic unused_product;
-  always_ff @(posedge clk_i) if (total_valid_i) total_q <= total_i;
-  mote_reciprocal #(.Width(SumWidth)) u_reciprocal (
-      .clk_i, .divisor_i(total_valid_i ? total_i : total_q), .zeros_o(zeros), .reciprocal_o(reciprocal));
+  mote_reciprocal #(.Width(SumWidth), .MostZeros(At + 8)) u_reciprocal (
+      .clk_i, .load_i(total_valid_i), .divisor_i(total_i), .zeros_o(zeros), .reciprocal_o(reciprocal));
   always_ff @(posedge clk_i) begin
     product_n_q <= (At + 19)'(reciprocal) * (At + 19)'(n_i);
     factor_q    <= product_n_q[Drop+:24];
@@ -110,21 +109,24 @@ module mote_residual_systematic #(
 
   // ---- shares of T: what is cut off goes to the next weight
   logic [ScaleWidth-1:0] by;
-  logic [Width-1:0] lowered_q;
-  logic [SumWidth-1:0] coarse_q, fine_q;
-  logic [SumWidth:0] sum;
+  logic [Width+Fraction-1:0] lowered_q;
+  logic [SumWidth+Fraction-1:0] coarse;
+  logic [SumWidth-1:0] coarse_q, fine;
+  logic [Width-1:0] fine_q, sum;
   logic [Rest-1:0] rest_q;
   logic [16:0] share_q;
-  logic share_valid, unused_carry;
+  logic share_valid, unused_cut;
   mote_valid #(.Depth(5)) u_share_valid (.clk_i, .rst_ni, .valid_i(reads), .valid_o(share_valid));
   assign by = last_scale_q - $signed(word[WordWidth-1:Width]);
-  assign sum = (SumWidth + 1)'(fine_q) + (SumWidth + 1)'(rest_q);
-  assign unused_carry = sum[SumWidth];
+  assign coarse = (SumWidth + Fraction)'(lowered_q) << {zeros[ZerosWidth-1:3], 3'b0};
+  assign fine = coarse_q << zeros[2:0];
+  assign sum = fine_q + Width'(rest_q);
+  assign unused_cut = ^{coarse[Fraction-1:0], fine[At-1:0]};
   always_ff @(posedge clk_i) begin
-    lowered_q <= by > ScaleWidth'(7) ? '0 : word[Width-1:0] >> {by[2:0], 3'b0};
-    coarse_q  <= SumWidth'(lowered_q) << {zeros[ZerosWidth-1:3], 3'b0};
-    fine_q    <= coarse_q << zeros[2:0];
-    share_q   <= sum[SumWidth-1:Rest];
+    lowered_q <= by > ScaleWidth'(2) ? '0 : {word[Width-1:0], {Fraction{1'b0}}} >> {by[1:0], 3'b0};
+    coarse_q  <= coarse[SumWidth+Fraction-1:Fraction];
+    fine_q    <= fine[SumWidth-1:At];
+    share_q   <= sum[Width-1:Rest];
     if (total_valid_i) rest_q <= '0;
     else if (share_valid) rest_q <= sum[Rest-1:0];
   end

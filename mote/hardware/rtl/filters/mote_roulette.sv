@@ -2,8 +2,8 @@
 //
 //   parent of child j: the least i with  w_0 + ... + w_i > u_j T,   T = sum w,  u_j ~ U[0, 1) of 24 bits
 //
-// Sums are taken as the weights come, at the scale of the moment, so that no second pass is needed. The last particle takes
-// what is above all other sums. No child is drawn when no step follows.
+// Sums are taken as the weights come, at the scale of the moment, so that no second pass is needed; a sum three quanta below
+// the scale counts as nothing. The last particle takes what is above all other sums. No child is drawn when no step follows.
 //
 // formats  weights: unsigned; sums and thresholds: exact integers of Width + At bits, u_j T cut
 // range    1 <= n_i <= 2^At, At >= 2
@@ -22,6 +22,7 @@ module mote_roulette #(
     input  logic        [At:0]           n_i,
     // weights, slot after slot
     input  logic                         write_i,
+    input  logic                         last_i,
     input  logic        [Width-1:0]      weight_i,
     input  logic signed [ScaleWidth-1:0] scale_i,
     // the end of a step
@@ -43,9 +44,9 @@ module mote_roulette #(
   typedef logic [At:0] count_t;
 
   // ---- sums so far
-  count_t number_q, number1_q, number2_q;
-  logic valid1_q, valid2_q, first1_q, bank_q;
-  logic [2:0] rise1_q;
+  logic [At-1:0] number_q, number1_q, number2_q;  // of the weights in a sum: the last, maybe 2^At, is not stored
+  logic valid1_q, valid2_q, last1_q, last2_q, bank_q;
+  logic [1:0] rise1_q;
   logic [Width-1:0] weight1_q;
   logic [ScaleWidth-1:0] rise;
   logic signed [ScaleWidth-1:0] scale1_q, scale2_q;
@@ -53,22 +54,21 @@ module mote_roulette #(
   assign rise = scale_i - scale1_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {valid1_q, valid2_q} <= '0;
+      {valid1_q, valid2_q, last1_q, last2_q} <= '0;
       number_q <= '0;
       bank_q   <= 1'b0;
     end else begin
-      {valid1_q, valid2_q} <= {write_i, valid1_q};
-      if (write_i) number_q <= number_q + (At + 1)'(1) == n_i ? '0 : number_q + (At + 1)'(1);
-      if (valid2_q && number2_q == n_i) bank_q <= ~bank_q;
+      {valid1_q, valid2_q, last1_q, last2_q} <= {write_i, valid1_q, last_i, last1_q};
+      if (write_i) number_q <= last_i ? '0 : number_q + At'(1);
+      if (last2_q) bank_q <= ~bank_q;
     end
   end
   always_ff @(posedge clk_i) begin
     if (write_i) scale1_q <= scale_i;
     weight1_q <= weight_i;
-    first1_q  <= number_q == '0;
-    number1_q <= number_q + (At + 1)'(1);
-    rise1_q   <= rise > ScaleWidth'(7) ? 3'd7 : rise[2:0];
-    if (valid1_q) sum_q <= (first1_q ? '0 : sum_q >> {rise1_q, 3'b0}) + SumWidth'(weight1_q);
+    number1_q <= number_q + At'(1);
+    rise1_q   <= number_q == '0 || rise > ScaleWidth'(2) ? 2'd3 : rise[1:0];
+    if (valid1_q) sum_q <= (rise1_q == 2'd3 ? '0 : sum_q >> {rise1_q, 3'b0}) + SumWidth'(weight1_q);
     scale2_q  <= scale1_q;
     number2_q <= number1_q;
   end
@@ -121,7 +121,7 @@ module mote_roulette #(
         .clk_i, .n_i,
         .write_i(valid2_q),
         .write_bank_i(bank_q),
-        .number_i(number2_q[At-1:0]),
+        .number_i(number2_q),
         .sum_i(sum_q),
         .scale_i(scale2_q),
         .read_bank_i(~bank_q),

@@ -3,7 +3,8 @@
 //   numbers m = 1 .. n - 1 stand for the sums of m weights; this level holds the odd multiples of 2^Bit
 //   place_o = place_i + 2^Bit if that is below n_i and its sum <= threshold_i, else place_i
 //
-// Sums are stored with the scale that they were made at and lowered to last_scale_i when they are read.
+// Sums are stored with the scale that they were made at and lowered to last_scale_i when they are read, to nothing from three
+// quanta on.
 //
 // formats  sums and thresholds: unsigned, SumWidth bits; places: multiples of 2^(Bit + 1) that are below 2^At
 // timing   latency 4, initiation interval 1; what is written can be read two cycles later; two banks
@@ -54,7 +55,7 @@ module mote_search_level #(
   mote_delay #(.Width(At), .Depth(2)) u_place (.clk_i, .d_i(place_i), .d_o(place2));
   mote_delay #(.Width(SumWidth), .Depth(3)) u_threshold (.clk_i, .d_i(threshold_i), .d_o(threshold3));
   always_ff @(posedge clk_i) begin
-    sum_q   <= by > ScaleWidth'(7) ? '0 : word_q[SumWidth-1:0] >> {by[2:0], 3'b0};
+    sum_q   <= by > ScaleWidth'(2) ? '0 : word_q[SumWidth-1:0] >> {by[1:0], 3'b0};
     place_q <= place2;
     below_q <= {1'b0, place2 | Step} < n_i;
     place_o     <= below_q && sum_q <= threshold3 ? place_q | Step : place_q;
