@@ -70,9 +70,9 @@ TEST_P(SchemesNightly, EqualTheirGoldenModels) {
       {"ungm", "ungm"}, {"ungm2", "ungm", {"copies=2"}}, {"bearings", "bearings"}, {"doa", "doa"}};
   std::uint64_t particle_steps = 0;
   for (const Target& target : targets) {
-    const auto model = catalogue_model(target.model, target.settings);
+    const std::shared_ptr<const CatalogueModel> model = catalogue_model(target.model, target.settings);
     const CircuitDesign design = design_of(GetParam());
-    const FilterCircuit circuit = filter_circuit(*model, target.name, design);
+    const FilterCircuit circuit = filter_circuit(model, target.name, design);
     Simulator simulator(*circuit.machine);
     const auto golden = circuit.machine->golden();
     std::uint64_t seed = 0;

@@ -45,6 +45,8 @@ void refuse_unread(const Arguments& arguments, const CircuitDesign& design) {
       {"--draws", r.draws != r.particles, has("draws")},
       {"--burn-in", r.burn_in != 0, has("burn_in")},
       {"--chain-mean", r.chain_mean, has("chain_mean")},
+      {"--overlap", design.variant.overlapped, architecture.chain},
+      {"--proposal", design.proposal != "prior", architecture.pairs},
       {"--lanes", design.lanes != 1, architecture.most_lanes > 1},
       {"--exchange", r.exchange != 0, has("exchange")},
       {"--resampler", arguments.given("--resampler"), architecture.schemes},
@@ -74,6 +76,7 @@ void refuse_uneven(const Arguments& arguments, const CircuitDesign& design) {
 
 hardware::Variant variant_from(const Arguments& arguments) {
   hardware::Variant variant;
+  variant.overlapped = arguments.given("--overlap");
   if (arguments.given("--resampler"))
     variant.resampler = static_cast<hardware::Resampler>(arguments.choice("--resampler", kResamplers));
   if (arguments.given("--loops")) {
@@ -92,18 +95,20 @@ std::uint32_t exchange_from(const Arguments& arguments, const CircuitDesign& des
 }  // namespace
 
 std::vector<OptionSpec> circuit_options() {
-  return {
-      {"--arch", "KIND", "imh", "kind of filter: " + listed(architecture_names()), "Circuit"},
-      {"-n,--particles", "N", "1000", "particles, from 1 to 65536", "Circuit"},
-      {"--draws", "Q", "", "imh: proposals a step beside the burn-in, at least N [N]", "Circuit"},
-      {"--burn-in", "NB", "0", "imh: proposals that the chain forgets", "Circuit"},
-      {"--chain-mean", "", "", "imh: estimate from the kept states instead of all weighted proposals", "Circuit"},
-      {"--lanes", "L", "", "imh-parallel: chains, sisr-lanes: lanes, groups: groups, a power of two [4]", "Circuit"},
-      {"--exchange", "M", "", "groups: children that each group has from the one before it, to N/L [1]", "Circuit"},
-      {"--resampler", "KIND", "", "sisr, sisr-plain, groups: " + listed(kResamplers) + " [systematic]", "Circuit"},
-      {"--loops", "KIND", "", "sisr-plain: " + listed(kLoops) + " [separate]", "Circuit"},
-      {"--seed", "S", "1", "seed of the circuit's generators; same seed, same words", "Circuit"},
-      {"--synth", "FAMILY", "", "what it takes of a device: xc7, ice40 or ecp5 (Yosys, nextpnr) [none]", "Checks"}};
+  return {{"--arch", "KIND", "imh", "kind of filter: " + listed(architecture_names()), "Circuit"},
+          {"-n,--particles", "N", "1000", "particles, from 1 to 65536", "Circuit"},
+          {"--draws", "Q", "", "imh: proposals a step beside the burn-in, at least N [N]", "Circuit"},
+          {"--burn-in", "NB", "0", "imh: proposals that the chain forgets", "Circuit"},
+          {"--chain-mean", "", "", "imh: estimate from the kept states instead of all weighted proposals", "Circuit"},
+          {"--overlap", "", "", "imh: begin a step while the one before is still decided on", "Circuit"},
+          {"--proposal", "NAME", "prior", "auxiliary: where new particles come from (see mote models NAME)", "Circuit"},
+          {"--lanes", "L", "", "chains, pairs of imh-chain, lanes or groups: a power of two [4]", "Circuit"},
+          {"--exchange", "M", "", "groups: children that each group has from the one before it, to N/L [1]", "Circuit"},
+          {"--resampler", "KIND", "", "sisr, sisr-plain, groups: " + listed(kResamplers) + " [systematic]", "Circuit"},
+          {"--loops", "KIND", "", "sisr-plain: " + listed(kLoops) + " [separate]", "Circuit"},
+          {"--instances", "I", "1", "circuits side by side, one for each copy of ungm with --set copies=2", "Circuit"},
+          {"--seed", "S", "1", "seed of the circuit's generators; same seed, same words", "Circuit"},
+          {"--synth", "FAMILY", "", "what it takes of a device: xc7, ice40 or ecp5 (Yosys, nextpnr) [none]", "Checks"}};
 }
 
 CircuitDesign circuit_design_from(const Arguments& arguments) {
@@ -115,6 +120,9 @@ CircuitDesign circuit_design_from(const Arguments& arguments) {
       arguments.given("--draws") ? arguments.integer("--draws", particles, kMostInCircuit) : particles);
   design.registers.burn_in = static_cast<std::uint32_t>(arguments.integer("--burn-in", 0, kMostInCircuit));
   design.registers.chain_mean = arguments.given("--chain-mean");
+  design.instances = static_cast<unsigned>(arguments.integer("--instances", 1, 2));
+  design.where = arguments.where();
+  design.proposal = arguments.text("--proposal");
   design.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 0, 9223372036854775807LL));
   design.lanes = lanes_from(arguments, design);
   design.variant = variant_from(arguments);

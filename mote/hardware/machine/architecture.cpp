@@ -31,7 +31,13 @@ class GoldenOf final : public Golden {
 };
 
 std::unique_ptr<Golden> golden_chains(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity& capacity) {
-  return std::make_unique<GoldenOf<Imh>>(arithmetic, seed, 0, ImhLanes{capacity.lanes, Parents::kBanked});
+  return std::make_unique<GoldenOf<Imh>>(
+      arithmetic, seed, 0, ImhLanes{capacity.lanes, Parents::kBanked, false, capacity.variant.overlapped});
+}
+
+std::unique_ptr<Golden> golden_chain(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity& capacity) {
+  return std::make_unique<GoldenOf<Imh>>(arithmetic, seed, 0,
+                                         ImhLanes{capacity.lanes, Parents::kBanked, true, capacity.variant.overlapped});
 }
 
 /// The arithmetic of a filter that counts up to 2^bits particles, in each of its memories of weights.
@@ -69,25 +75,38 @@ const Register kExchange{"exchange", "M, children that each group has from the o
 unsigned bits_for(std::uint32_t count) { return static_cast<unsigned>(ceil_log2(count)); }
 
 /// Chains keep `most` particles of up to 2^at proposals.
-Capacity chain_capacity(const RunRegisters& r, unsigned lanes, const Variant&) {
+Capacity chain_capacity(const RunRegisters& r, unsigned lanes) {
   const std::uint32_t most = std::max(2U, std::bit_ceil(r.particles));
-  return {std::max(bits_for(lanes * r.proposals(lanes)), bits_for(most)), most, lanes};
+  return {std::max(bits_for(r.draws + lanes * r.burn_in), bits_for(most)), most, lanes};
+}
+
+/// One chain before all lanes burns in once, by whole rows.
+Capacity chain_of_pairs_capacity(const RunRegisters& r, unsigned lanes) {
+  const std::uint32_t most = std::max(2U, std::bit_ceil(r.particles));
+  return {std::max(bits_for(r.draws + (r.burn_in + lanes - 1) / lanes * lanes), bits_for(most)), most, lanes};
 }
 
 constexpr unsigned kLeastBits = 6;  ///< of the counts of what resamples
 
-Capacity cloud_capacity(const RunRegisters& r, unsigned lanes, const Variant& variant) {
+Capacity cloud_capacity(const RunRegisters& r, unsigned lanes) {
   const unsigned at = std::max(kLeastBits, bits_for(r.particles));
-  return {at, 1U << at, lanes, variant};
+  return {at, 1U << at, lanes};
 }
 
-Capacity group_capacity(const RunRegisters& r, unsigned lanes, const Variant& variant) {
+Capacity group_capacity(const RunRegisters& r, unsigned lanes) {
   const unsigned at = std::max(kLeastBits + bits_for(lanes), bits_for(r.particles));
-  return {at, 1U << at, lanes, variant};
+  return {at, 1U << at, lanes};
 }
 
 std::vector<Parameter> chain_parameters(const Capacity& c) {
-  return {parameter("Lanes", static_cast<int>(c.lanes)), parameter("Most", static_cast<int>(c.most))};
+  return {parameter("Lanes", static_cast<int>(c.lanes)), parameter("Most", static_cast<int>(c.most)),
+          parameter("Overlapped", static_cast<int>(c.variant.overlapped))};
+}
+
+std::vector<Parameter> chain_of_pairs_parameters(const Capacity& c) {
+  std::vector<Parameter> all = chain_parameters(c);
+  all.push_back(parameter("Folded", 1));
+  return all;
 }
 
 Parameter scheme_of(const Capacity& c) { return parameter("Scheme", static_cast<int>(c.variant.resampler)); }
@@ -114,6 +133,12 @@ std::string chain_range(const Capacity& c) {
 std::string group_range(const Capacity& c) {
   return "1 <= n_i <= " + std::to_string(c.most) + of_lanes(c, "n_i") + ", " + std::to_string(c.lanes) +
          " exchange_i <= n_i";
+}
+
+std::string chain_of_pairs_range(const Capacity& c) {
+  return "1 <= n_i <= " + std::to_string(c.most) +
+         ", n_i <= draws_i, draws_i + burn_in_i <= " + std::to_string(1U << c.at) + of_lanes(c, "n_i and draws_i") +
+         ", burn_in_i goes up to one";
 }
 
 std::string cloud_range(const Capacity& c) { return "1 <= n_i <= " + std::to_string(c.most) + of_lanes(c, "n_i"); }
@@ -146,6 +171,35 @@ const std::vector<Architecture>& architectures() {
        chain_range,
        chain_capacity,
        golden_chains},
+      {"imh-chain",
+       "independent Metropolis-Hastings, one chain that pairs of proposer and weigher feed a row a cycle",
+       "mote_imh",
+       "mote/hardware/filters/imh.hpp",
+       {kParticles, kDraws, kBurnIn, kChainMean},
+       8,
+       true,
+       6,
+       chain_of_pairs_parameters,
+       chain_of_pairs_range,
+       chain_of_pairs_capacity,
+       golden_chain,
+       true,
+       1},
+      {"auxiliary",
+       "auxiliary-variable independent Metropolis-Hastings: one chain over pairs of state and parent, any proposal",
+       "mote_imh",
+       "mote/hardware/filters/imh.hpp",
+       {kParticles, kDraws, kBurnIn, kChainMean},
+       1,
+       true,
+       5,
+       chain_parameters,
+       chain_range,
+       chain_capacity,
+       golden_chains,
+       false,
+       0,
+       true},
       {"sisr",
        "bootstrap filter, one lane, resampling of a step beside the next one's proposals",
        "mote_sisr",
@@ -158,6 +212,9 @@ const std::vector<Architecture>& architectures() {
        cloud_range,
        cloud_capacity,
        golden_cloud,
+       false,
+       0,
+       false,
        true},
       {"sisr-lanes",
        "bootstrap filter, lanes abreast, systematic resampling of a step beside the next one's proposals",
@@ -183,6 +240,9 @@ const std::vector<Architecture>& architectures() {
        cloud_range,
        cloud_capacity,
        golden_loops,
+       false,
+       0,
+       false,
        true,
        true},
       {"groups",
@@ -197,6 +257,9 @@ const std::vector<Architecture>& architectures() {
        group_range,
        group_capacity,
        golden_groups,
+       false,
+       0,
+       false,
        true},
   };
   return all;

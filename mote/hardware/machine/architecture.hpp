@@ -27,10 +27,11 @@ struct Register {
   std::uint32_t (*value)(const RunRegisters&) = nullptr;
 };
 
-/// How a filter that resamples is built.
+/// How a filter is built where its kind has a choice.
 struct Variant {
   Resampler resampler = Resampler::kSystematic;
-  PlainLoops loops = {};  ///< of the filter in separate loops
+  PlainLoops loops = {};    ///< of the filter in separate loops
+  bool overlapped = false;  ///< a step of chains begins while the one before is still decided on
 };
 
 /// How large a circuit is made: what its registers may be told at most.
@@ -66,14 +67,22 @@ struct Architecture {
   unsigned stages = 0;                                    ///< of its pipeline, beside the model's
   std::vector<Parameter> (*parameters)(const Capacity&);  ///< that other kinds do not have
   std::string (*range)(const Capacity&);                  ///< of its registers, for the data sheet
-  Capacity (*capacity)(const RunRegisters& most, unsigned lanes, const Variant& variant);
-  /// Proposals of a step, of all lanes.
-  std::uint64_t offered(const RunRegisters& r, unsigned lanes) const {
-    return chain ? std::uint64_t{lanes} * r.proposals(lanes) : r.particles;
-  }
+  Capacity (*capacity)(const RunRegisters& most, unsigned lanes);
   std::unique_ptr<Golden> (*golden)(const Arithmetic&, std::uint64_t seed, const Capacity&);
-  bool schemes = false;  ///< resamples by any scheme of Resampler
-  bool loops = false;    ///< in loops that can be pipelined and merged
+  bool folded = false;         ///< one chain before all lanes
+  unsigned stages_a_lane = 0;  ///< that each lane adds to the stages
+  bool pairs = false;          ///< weighs pairs of state and parent, so that any proposal will do
+  bool schemes = false;        ///< resamples by any scheme of Resampler
+  bool loops = false;          ///< in loops that can be pipelined and merged
+
+  /// How its chains are fed.
+  ImhLanes fed(const Capacity& c) const { return {c.lanes, Parents::kBanked, folded, c.variant.overlapped}; }
+  /// Proposals of a step, of all lanes.
+  std::uint64_t offered(const RunRegisters& r, const Capacity& c) const {
+    return chain ? std::uint64_t{c.lanes} * fed(c).rows(r) : r.particles;
+  }
+  /// Of those, the proposals that chains may refuse: all but each one's first.
+  std::uint64_t decided(const RunRegisters& r, const Capacity& c) const { return offered(r, c) - fed(c).chains(); }
 };
 
 /// All kinds, the simplest first.

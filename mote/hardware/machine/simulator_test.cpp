@@ -22,7 +22,9 @@ struct Kind {
 
   unsigned lanes(unsigned most) const { return std::min(most, architecture->most_lanes); }
   Machine machine(std::uint64_t seed, unsigned lanes) const {
-    return {local_level_circuit(), *architecture, kMost, seed, lanes, variant};
+    Variant built = variant;
+    built.overlapped = architecture->folded;  // one kind overlapped
+    return {local_level_circuit(), *architecture, kMost, seed, lanes, built};
   }
 };
 

@@ -177,6 +177,7 @@ void BlockSums::map_children(const Totals& totals, double u, ChildMap& map) cons
     map.children_per_weight[0] = per_weight;
     map.first[0] = 0;
     map.first[1] = static_cast<std::uint32_t>(all_);
+    map.born = map.first;
     return;
   }
   ExactSum before = team_ == nullptr ? ExactSum{} : team_->before(totals.mine);

@@ -271,6 +271,7 @@ TEST(VectorImportanceFilter, TeamsChangeNoBit) {
     }
   const std::size_t many = (BlockSums::kMostTold + 1) * kBlock;
   expect_the_same_on_teams<float>(Bearings{}, plan_of(many), recording_of(Bearings{}), {2, 3});
+  expect_the_same_on_teams<double>(Ungm<1>{}, plan_of(1000), recording_of(Ungm<1>{}), {1});
   Recording sharp = recording_of(Ungm<1>{{.r = 1e-7}});
   expect_the_same_on_teams<double>(Ungm<1>{{.r = 1e-7}}, plan_of(9 * kBlock), sharp, {2, 3, 9});
   expect_the_same_on_teams<double>(Bearings{}, plan_of(9 * kBlock + 1), recording_of(Bearings{}), {3, 10});
