@@ -53,7 +53,7 @@ TEST_P(ChainsNightly, EqualTheirGoldenModels) {
   design.architecture = &architecture_of(kind.arch);
   design.registers = {1000, 1200, 40, false};
   design.lanes = kind.lanes;
-  design.overlapped = kind.overlapped;
+  design.variant.overlapped = kind.overlapped;
   design.proposal = kind.proposal;
   const FilterCircuit circuit = filter_circuit(model, kind.model, design);
   Simulator simulator(*circuit.machine);

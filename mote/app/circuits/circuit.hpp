@@ -17,7 +17,7 @@ struct CircuitDesign {
   hardware::RunRegisters registers;  ///< of the runs to come; the circuit has room for no more
   std::uint64_t seed = 1;
   unsigned lanes = 1;
-  bool overlapped = false;
+  hardware::Variant variant;
   unsigned instances = 1;          ///< for a model of so many independent copies: a circuit each, side by side
   std::string where = "mote rtl";  ///< who asks for it, for refusals
   std::string proposal = "prior";  ///< of an architecture whose weights are those of pairs

@@ -110,17 +110,35 @@ CircuitSimulation simulated_run(const FilterCircuit& circuit, const CircuitDesig
   return {side_by_side(agreements), std::move(record)};
 }
 
-RunRecord golden_run(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
-                     const std::string& where) {
-  return run_of_instances(
+namespace {
+
+/// The golden models' run: what each instance gives, and the cycles of the slowest.
+std::pair<RunRecord, std::uint64_t> golden_outcome(const FilterCircuit& circuit, const CircuitDesign& design,
+                                                   const Recording& recording, const std::string& where) {
+  std::uint64_t cycles = 0;
+  RunRecord record = run_of_instances(
       circuit, design, recording, where, [&](unsigned i, const std::vector<std::vector<std::int64_t>>& observed) {
         const auto golden = design.architecture->golden(circuit.datapath.arithmetic, seed_of_instance(design.seed, i),
                                                         circuit.machine->capacity());
         golden->start(design.registers);
         std::vector<hardware::Estimate> estimates;
         for (const auto& step : observed) estimates.push_back(golden->step(step));
+        cycles = std::max(cycles, golden->cycles());
         return estimates;
       });
+  return {std::move(record), cycles};
+}
+
+}  // namespace
+
+RunRecord golden_run(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
+                     const std::string& where) {
+  return golden_outcome(circuit, design, recording, where).first;
+}
+
+std::uint64_t golden_cycles(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
+                            const std::string& where) {
+  return golden_outcome(circuit, design, recording, where).second;
 }
 
 std::string circuit_estimates_csv(const RunRecord& record, bool chain) {

@@ -29,6 +29,10 @@ CircuitSimulation simulated_run(const FilterCircuit& circuit, const CircuitDesig
 RunRecord golden_run(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
                      const std::string& where);
 
+/// Cycles of such a run by the golden model's count, which is the circuit's own.
+std::uint64_t golden_cycles(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
+                            const std::string& where);
+
 /// The estimates as CSV: t, the mean of every state, log_evidence, and acceptance where a chain decides.
 std::string circuit_estimates_csv(const RunRecord& record, bool chain);
 

@@ -14,20 +14,43 @@ using hardware::architectures;
 
 constexpr long long kMostInCircuit = 65536;
 
+/// In the order of hardware::Resampler.
+const std::vector<std::string> kResamplers{"systematic", "residual-systematic", "roulette"};
+/// Each has what the one before has: see hardware::PlainLoops.
+const std::vector<std::string> kLoops{"separate", "pipelined", "merged"};
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+std::vector<std::string> architecture_names() {
+  std::vector<std::string> names;
+  for (const Architecture& one : architectures()) names.emplace_back(one.name);
+  return names;
+}
+
+bool has_register(const Architecture& architecture, std::string_view name) {
+  return std::any_of(architecture.registers.begin(), architecture.registers.end(),
+                     [&](const auto& one) { return one.name == name; });
+}
+
 /// What an architecture has no register or room for is no use to be asked for.
 void refuse_unread(const Arguments& arguments, const CircuitDesign& design) {
   const Architecture& architecture = *design.architecture;
-  const auto has = [&](const std::string& name) {
-    return std::any_of(architecture.registers.begin(), architecture.registers.end(),
-                       [&](const auto& one) { return one.name == name; });
-  };
+  const auto has = [&](const char* name) { return has_register(architecture, name); };
   const hardware::RunRegisters& r = design.registers;
-  const std::tuple<const char*, bool, bool> options[] = {{"--draws", r.draws != r.particles, has("draws")},
-                                                         {"--burn-in", r.burn_in != 0, has("burn_in")},
-                                                         {"--chain-mean", r.chain_mean, has("chain_mean")},
-                                                         {"--overlap", design.overlapped, architecture.chain},
-                                                         {"--proposal", design.proposal != "prior", architecture.pairs},
-                                                         {"--lanes", design.lanes != 1, architecture.most_lanes > 1}};
+  const std::tuple<const char*, bool, bool> options[] = {
+      {"--draws", r.draws != r.particles, has("draws")},
+      {"--burn-in", r.burn_in != 0, has("burn_in")},
+      {"--chain-mean", r.chain_mean, has("chain_mean")},
+      {"--overlap", design.variant.overlapped, architecture.chain},
+      {"--proposal", design.proposal != "prior", architecture.pairs},
+      {"--lanes", design.lanes != 1, architecture.most_lanes > 1},
+      {"--exchange", r.exchange != 0, has("exchange")},
+      {"--resampler", arguments.given("--resampler"), architecture.schemes},
+      {"--loops", arguments.given("--loops"), architecture.loops}};
   for (const auto& [option, asked, taken] : options)
     if (asked && !taken)
       throw Refusal(ExitCode::kWrongUse, {arguments.where(), option, "an architecture that has it",
@@ -51,30 +74,46 @@ void refuse_uneven(const Arguments& arguments, const CircuitDesign& design) {
                  std::to_string(design.lanes), "Pass --lanes 1, or other --particles."});
 }
 
+hardware::Variant variant_from(const Arguments& arguments) {
+  hardware::Variant variant;
+  variant.overlapped = arguments.given("--overlap");
+  if (arguments.given("--resampler"))
+    variant.resampler = static_cast<hardware::Resampler>(arguments.choice("--resampler", kResamplers));
+  if (arguments.given("--loops")) {
+    const std::size_t loops = arguments.choice("--loops", kLoops);
+    variant.loops = {loops > 0, loops > 1};
+  }
+  return variant;
+}
+
+/// M, of each group's particles.
+std::uint32_t exchange_from(const Arguments& arguments, const CircuitDesign& design) {
+  if (!arguments.given("--exchange")) return has_register(*design.architecture, "exchange") ? 1 : 0;
+  return static_cast<std::uint32_t>(arguments.integer("--exchange", 0, design.registers.particles / design.lanes));
+}
+
 }  // namespace
 
 std::vector<OptionSpec> circuit_options() {
-  std::string kinds;
-  for (const Architecture& one : architectures()) kinds += (kinds.empty() ? "" : ", ") + std::string(one.name);
-  return {
-      {"--arch", "KIND", "imh", "kind of filter: " + kinds, "Circuit"},
-      {"-n,--particles", "N", "1000", "particles, from 1 to 65536", "Circuit"},
-      {"--draws", "Q", "", "imh: proposals a step beside the burn-in, at least N [N]", "Circuit"},
-      {"--burn-in", "NB", "0", "imh: proposals that the chain forgets", "Circuit"},
-      {"--chain-mean", "", "", "imh: estimate from the kept states instead of all weighted proposals", "Circuit"},
-      {"--overlap", "", "", "imh: begin a step while the one before is still decided on", "Circuit"},
-      {"--proposal", "NAME", "prior", "auxiliary: where new particles come from (see mote models NAME)", "Circuit"},
-      {"--lanes", "L", "", "imh-parallel: chains, imh-chain: pairs, sisr-lanes: lanes, a power of two [4]", "Circuit"},
-      {"--instances", "I", "1", "circuits side by side, one for each copy of ungm with --set copies=2", "Circuit"},
-      {"--seed", "S", "1", "seed of the circuit's generators; same seed, same words", "Circuit"},
-      {"--synth", "FAMILY", "", "what it takes of a device: xc7, ice40 or ecp5 (Yosys, nextpnr) [none]", "Checks"}};
+  return {{"--arch", "KIND", "imh", "kind of filter: " + listed(architecture_names()), "Circuit"},
+          {"-n,--particles", "N", "1000", "particles, from 1 to 65536", "Circuit"},
+          {"--draws", "Q", "", "imh: proposals a step beside the burn-in, at least N [N]", "Circuit"},
+          {"--burn-in", "NB", "0", "imh: proposals that the chain forgets", "Circuit"},
+          {"--chain-mean", "", "", "imh: estimate from the kept states instead of all weighted proposals", "Circuit"},
+          {"--overlap", "", "", "imh: begin a step while the one before is still decided on", "Circuit"},
+          {"--proposal", "NAME", "prior", "auxiliary: where new particles come from (see mote models NAME)", "Circuit"},
+          {"--lanes", "L", "", "chains, pairs of imh-chain, lanes or groups: a power of two [4]", "Circuit"},
+          {"--exchange", "M", "", "groups: children that each group has from the one before it, to N/L [1]", "Circuit"},
+          {"--resampler", "KIND", "", "sisr, sisr-plain, groups: " + listed(kResamplers) + " [systematic]", "Circuit"},
+          {"--loops", "KIND", "", "sisr-plain: " + listed(kLoops) + " [separate]", "Circuit"},
+          {"--instances", "I", "1", "circuits side by side, one for each copy of ungm with --set copies=2", "Circuit"},
+          {"--seed", "S", "1", "seed of the circuit's generators; same seed, same words", "Circuit"},
+          {"--synth", "FAMILY", "", "what it takes of a device: xc7, ice40 or ecp5 (Yosys, nextpnr) [none]", "Checks"}};
 }
 
 CircuitDesign circuit_design_from(const Arguments& arguments) {
-  std::vector<std::string> names;
-  for (const Architecture& one : architectures()) names.emplace_back(one.name);
   CircuitDesign design;
-  design.architecture = &architectures()[arguments.choice("--arch", names)];
+  design.architecture = &architectures()[arguments.choice("--arch", architecture_names())];
   const long long particles = arguments.integer("--particles", 1, kMostInCircuit);
   design.registers.particles = static_cast<std::uint32_t>(particles);
   design.registers.draws = static_cast<std::uint32_t>(
@@ -84,11 +123,12 @@ CircuitDesign circuit_design_from(const Arguments& arguments) {
   design.instances = static_cast<unsigned>(arguments.integer("--instances", 1, 2));
   design.where = arguments.where();
   design.proposal = arguments.text("--proposal");
-  design.overlapped = arguments.given("--overlap");
   design.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 0, 9223372036854775807LL));
   design.lanes = lanes_from(arguments, design);
-  refuse_unread(arguments, design);
+  design.variant = variant_from(arguments);
   refuse_uneven(arguments, design);
+  design.registers.exchange = exchange_from(arguments, design);
+  refuse_unread(arguments, design);
   return design;
 }
 

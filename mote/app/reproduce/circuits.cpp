@@ -19,7 +19,7 @@ CircuitBench::CircuitBench(const Run& run, const Job& job) : where_(run.where), 
 }
 
 std::string CircuitBench::missing(const Comparison& c) const {
-  if (c.key == "stages") return "";
+  if (c.key == "stages" || c.key == "golden_cycles") return "";
   const bool synthesised = family_ && c.mhz == 0;
   for (const auto& [tool, needed] : {std::pair{"verilator", true}, {"yosys", synthesised}})
     if (needed && !hardware::on_path(tool))
@@ -66,6 +66,7 @@ const CircuitReport& CircuitBench::report(const Recording& recording) {
 double CircuitBench::figure(const Comparison& c, const Recording& recording) {
   if (c.key == "step_cycles_over_law") return step_cycles_over_law(recording);
   if (c.key == "stages") return circuit().machine->stages();
+  if (c.key == "golden_cycles") return static_cast<double>(golden_cycles(circuit(), design_, recording, where_));
   const CircuitReport& found = report(recording);
   if (c.mhz > 0) return static_cast<double>(found.simulation->agreement.cycles) / (1000 * c.mhz);
   const nlohmann::json value = circuit_json(circuit(), found)[c.key];

@@ -39,6 +39,8 @@ class ChildrenWalk {
   /// last_write: the cycle in which the last weight is written.
   ChildrenWalk(std::span<const std::uint32_t> ends, unsigned lanes, std::uint64_t last_write);
 
+  /// Whether a group is there in this cycle.
+  bool shows() const { return shows_; }
   /// Goes on by a cycle, in which the next group is taken if `ready`; says whether one was there.
   bool cycle(bool ready);
   std::uint64_t now() const { return now_; }

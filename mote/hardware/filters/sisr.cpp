@@ -10,13 +10,13 @@ constexpr std::uint64_t kOtherTurn = 6;  ///< cycles of a turn of the loops that
 
 }  // namespace
 
-Sisr::Sisr(Arithmetic arithmetic, std::uint64_t seed, unsigned stream, unsigned lanes)
-    : arithmetic_(std::move(arithmetic)), lanes_(lanes), resample_words_(seed, stream) {
+Sisr::Sisr(Arithmetic arithmetic, std::uint64_t seed, unsigned stream, unsigned lanes, Resampler resampler)
+    : arithmetic_(std::move(arithmetic)), lanes_(lanes), resampler_(resampler, Words(seed, stream)) {
   for (unsigned w = 0; w < lanes * arithmetic_.formats.draw_words; ++w) draw_words_.emplace_back(seed, stream + 1 + w);
 }
 
-Sisr::Sisr(Arithmetic arithmetic, std::uint64_t seed, unsigned stream, PlainLoops loops)
-    : Sisr(std::move(arithmetic), seed, stream) {
+Sisr::Sisr(Arithmetic arithmetic, std::uint64_t seed, unsigned stream, PlainLoops loops, Resampler resampler)
+    : Sisr(std::move(arithmetic), seed, stream, 1, resampler) {
   loops_ = loops;
 }
 
@@ -48,40 +48,39 @@ Estimate Sisr::step(Observed observed) {
 }
 
 void Sisr::choose_parents() {
-  const Offspring offspring{arithmetic_.formats.weight_bits, arithmetic_.formats.count_bits};
-  const std::vector<std::uint32_t> ends = offspring.ends(weights_, total_, uniform_);
-  const ChildrenWalk walk(ends, lanes_, written_.back());
-  loops_ ? walk_last(walk) : walk_beside(walk);
-  const std::vector<std::uint32_t> parents = parents_of(ends);
+  const auto walk = resampler_.walk({weights_, total_, written_}, arithmetic_.formats, lanes_);
+  const std::vector<std::uint32_t> parents = loops_ ? walk_last(*walk) : walk_beside(*walk);
   for (std::size_t d = 0; d < set_.size(); ++d)
     for (std::size_t j = 0; j < parents.size(); ++j) parents_[d][j] = set_[d][parents[j]];
 }
 
 /// The walk beside the next step's proposals: parents are taken as they come, once the step has begun.
-void Sisr::walk_beside(ChildrenWalk walk) {
+std::vector<std::uint32_t> Sisr::walk_beside(ParentWalk& walk) {
+  std::vector<std::uint32_t> parents;
   for (std::size_t k = 0; k < issued_.size();) {
     const std::uint64_t now = walk.now();
-    if (walk.cycle(now > pace_.begun() + 1)) issued_[k++] = now;
+    if (walk.cycle(now > pace_.begun() + 1, parents)) issued_[k++] = now;
   }
+  return parents;
 }
 
 /// The walk as the last loop of the step before; the next step begins when it is through.
-void Sisr::walk_last(ChildrenWalk walk) {
-  std::uint64_t turn = written_.back() + 1;
-  for (std::size_t k = 0; k < written_.size();) {
+std::vector<std::uint32_t> Sisr::walk_last(ParentWalk& walk) {
+  std::vector<std::uint32_t> parents;
+  for (std::uint64_t turn = written_.back() + 1; parents.size() < written_.size();) {
     const std::uint64_t now = walk.now();
-    if (!walk.cycle(now >= turn)) continue;
-    ++k;
+    if (!walk.cycle(now >= turn, parents)) continue;
     turn = now + (loops_->pipelined ? 1 : kOtherTurn);
     pace_.free_from(now + 1);
   }
+  return parents;
 }
 
 Estimate Sisr::infer() {
   const Formats& f = arithmetic_.formats;
   scale_weights(log_weights_, lanes_, f.weight_bits, weights_);
   total_ = sum_of(weights_);
-  uniform_ = resample_words_.next() >> 8;
+  resampler_.end_step();
   return {weighted_means(set_, weights_, total_, f), total_, weights_.back().scale, 0};
 }
 

@@ -6,9 +6,8 @@
 
 #include "mote/hardware/filters/arithmetic.hpp"
 #include "mote/hardware/filters/estimate.hpp"
-#include "mote/hardware/filters/offspring.hpp"
 #include "mote/hardware/filters/pace.hpp"
-#include "mote/hardware/words.hpp"
+#include "mote/hardware/filters/resampler.hpp"
 
 namespace mote::hardware {
 
@@ -18,17 +17,19 @@ struct PlainLoops {
   bool merged = false;     ///< propagating, weighing and normalising are one loop
 };
 
-/// The bootstrap filter with systematic resampling every step, in integers; words go on from run to run.
+/// The bootstrap filter with resampling every step, in integers; words go on from run to run.
 ///
 /// shape   N is a multiple of the lanes; particle lanes k + l is slot k of lane l
 /// cost    about 40 ns a particle and step, besides the arithmetic's own
 /// source  FPGA (merged loops, dataflow); Kitagawa 1996
 class Sisr {
  public:
-  /// lanes: 1, 2, 4 or 8.
-  Sisr(Arithmetic arithmetic, std::uint64_t seed, unsigned stream = 0, unsigned lanes = 1);
+  /// lanes: 1, 2, 4 or 8; several of them resample systematically.
+  Sisr(Arithmetic arithmetic, std::uint64_t seed, unsigned stream = 0, unsigned lanes = 1,
+       Resampler resampler = Resampler::kSystematic);
   /// The same in loops one after the other: other cycles, not another number.
-  Sisr(Arithmetic arithmetic, std::uint64_t seed, unsigned stream, PlainLoops loops);
+  Sisr(Arithmetic arithmetic, std::uint64_t seed, unsigned stream, PlainLoops loops,
+       Resampler resampler = Resampler::kSystematic);
 
   void start(std::uint32_t particles);
   Estimate step(Observed observed);
@@ -39,8 +40,8 @@ class Sisr {
   std::uint64_t cycles() const { return pace_.left(); }
 
  private:
-  void walk_beside(ChildrenWalk walk);
-  void walk_last(ChildrenWalk walk);
+  std::vector<std::uint32_t> walk_beside(ParentWalk& walk);
+  std::vector<std::uint32_t> walk_last(ParentWalk& walk);
   void choose_parents();
   Estimate infer();
   void keep_time();
@@ -49,7 +50,7 @@ class Sisr {
   Arithmetic arithmetic_;
   unsigned lanes_;
   std::optional<PlainLoops> loops_;
-  Words resample_words_;
+  ResamplerWords resampler_;
   std::vector<Words> draw_words_;  // lane after lane
   unsigned t_ = 0;
   Particles set_, parents_;
@@ -57,7 +58,6 @@ class Sisr {
   std::vector<std::int64_t> log_weights_;
   std::vector<ScaledWeight> weights_;
   std::uint64_t total_ = 0;
-  std::uint32_t uniform_ = 0;
   std::vector<std::uint64_t> issued_, written_;  ///< cycles, of slots
   Pace pace_;
 };

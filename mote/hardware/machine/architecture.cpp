@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "mote/hardware/filters/sisr.hpp"
+#include "mote/hardware/filters/groups.hpp"
 
 namespace mote::hardware {
 namespace {
@@ -17,6 +17,8 @@ class GoldenOf final : public Golden {
   void start(const RunRegisters& registers) override {
     if constexpr (requires { filter_.start(registers); })
       filter_.start(registers);
+    else if constexpr (requires { filter_.start(registers.particles, registers.exchange); })
+      filter_.start(registers.particles, registers.exchange);
     else
       filter_.start(registers.particles);
   }
@@ -29,26 +31,34 @@ class GoldenOf final : public Golden {
 };
 
 std::unique_ptr<Golden> golden_chains(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity& capacity) {
-  return std::make_unique<GoldenOf<Imh>>(arithmetic, seed, 0,
-                                         ImhLanes{capacity.lanes, Parents::kBanked, false, capacity.overlapped});
+  return std::make_unique<GoldenOf<Imh>>(
+      arithmetic, seed, 0, ImhLanes{capacity.lanes, Parents::kBanked, false, capacity.variant.overlapped});
 }
 
 std::unique_ptr<Golden> golden_chain(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity& capacity) {
   return std::make_unique<GoldenOf<Imh>>(arithmetic, seed, 0,
-                                         ImhLanes{capacity.lanes, Parents::kBanked, true, capacity.overlapped});
+                                         ImhLanes{capacity.lanes, Parents::kBanked, true, capacity.variant.overlapped});
 }
 
-Arithmetic counting(Arithmetic arithmetic, const Capacity& capacity) {
-  arithmetic.formats.count_bits = capacity.at;
+/// The arithmetic of a filter that counts up to 2^bits particles, in each of its memories of weights.
+Arithmetic counting(Arithmetic arithmetic, unsigned bits) {
+  arithmetic.formats.count_bits = bits;
   return arithmetic;
 }
 
 std::unique_ptr<Golden> golden_cloud(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity& capacity) {
-  return std::make_unique<GoldenOf<Sisr>>(counting(arithmetic, capacity), seed, 0, capacity.lanes);
+  return std::make_unique<GoldenOf<Sisr>>(counting(arithmetic, capacity.at), seed, 0, capacity.lanes,
+                                          capacity.variant.resampler);
 }
 
 std::unique_ptr<Golden> golden_loops(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity& capacity) {
-  return std::make_unique<GoldenOf<Sisr>>(counting(arithmetic, capacity), seed, 0, PlainLoops{});
+  return std::make_unique<GoldenOf<Sisr>>(counting(arithmetic, capacity.at), seed, 0, capacity.variant.loops,
+                                          capacity.variant.resampler);
+}
+
+std::unique_ptr<Golden> golden_groups(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity& capacity) {
+  return std::make_unique<GoldenOf<Groups>>(counting(arithmetic, capacity.slot_bits()), seed, 0, capacity.lanes,
+                                            capacity.variant.resampler);
 }
 
 const Register kParticles{"n", "N, particles, from 1", false, [](const RunRegisters& r) { return r.particles; }};
@@ -58,6 +68,9 @@ const Register kBurnIn{"burn_in", "N_b, proposals that the chain forgets", false
                        [](const RunRegisters& r) { return r.burn_in; }};
 const Register kChainMean{"chain_mean", "1: the mean over the kept states, 0: over all weighted proposals", true,
                           [](const RunRegisters& r) { return std::uint32_t{r.chain_mean}; }};
+
+const Register kExchange{"exchange", "M, children that each group has from the one before it, at most N / lanes", false,
+                         [](const RunRegisters& r) { return r.exchange; }};
 
 unsigned bits_for(std::uint32_t count) { return static_cast<unsigned>(ceil_log2(count)); }
 
@@ -73,14 +86,21 @@ Capacity chain_of_pairs_capacity(const RunRegisters& r, unsigned lanes) {
   return {std::max(bits_for(r.draws + (r.burn_in + lanes - 1) / lanes * lanes), bits_for(most)), most, lanes};
 }
 
+constexpr unsigned kLeastBits = 6;  ///< of the counts of what resamples
+
 Capacity cloud_capacity(const RunRegisters& r, unsigned lanes) {
-  const unsigned at = std::max(6U, bits_for(r.particles));
+  const unsigned at = std::max(kLeastBits, bits_for(r.particles));
+  return {at, 1U << at, lanes};
+}
+
+Capacity group_capacity(const RunRegisters& r, unsigned lanes) {
+  const unsigned at = std::max(kLeastBits + bits_for(lanes), bits_for(r.particles));
   return {at, 1U << at, lanes};
 }
 
 std::vector<Parameter> chain_parameters(const Capacity& c) {
   return {parameter("Lanes", static_cast<int>(c.lanes)), parameter("Most", static_cast<int>(c.most)),
-          parameter("Overlapped", static_cast<int>(c.overlapped))};
+          parameter("Overlapped", static_cast<int>(c.variant.overlapped))};
 }
 
 std::vector<Parameter> chain_of_pairs_parameters(const Capacity& c) {
@@ -89,9 +109,16 @@ std::vector<Parameter> chain_of_pairs_parameters(const Capacity& c) {
   return all;
 }
 
-std::vector<Parameter> cloud_parameters(const Capacity& c) { return {parameter("Lanes", static_cast<int>(c.lanes))}; }
+Parameter scheme_of(const Capacity& c) { return parameter("Scheme", static_cast<int>(c.variant.resampler)); }
 
-std::vector<Parameter> no_parameters(const Capacity&) { return {}; }
+std::vector<Parameter> cloud_parameters(const Capacity& c) {
+  return {parameter("Lanes", static_cast<int>(c.lanes)), scheme_of(c)};
+}
+
+std::vector<Parameter> loop_parameters(const Capacity& c) {
+  return {parameter("Pipelined", static_cast<int>(c.variant.loops.pipelined)),
+          parameter("Merged", static_cast<int>(c.variant.loops.merged)), scheme_of(c)};
+}
 
 std::string of_lanes(const Capacity& c, const std::string& what) {
   return c.lanes == 1 ? "" : ", " + what + " multiples of " + std::to_string(c.lanes);
@@ -101,6 +128,11 @@ std::string chain_range(const Capacity& c) {
   const std::string burn_in = c.lanes == 1 ? "burn_in_i" : std::to_string(c.lanes) + " burn_in_i";
   return "1 <= n_i <= " + std::to_string(c.most) + ", n_i <= draws_i, draws_i + " + burn_in +
          " <= " + std::to_string(1U << c.at) + of_lanes(c, "n_i and draws_i");
+}
+
+std::string group_range(const Capacity& c) {
+  return "1 <= n_i <= " + std::to_string(c.most) + of_lanes(c, "n_i") + ", " + std::to_string(c.lanes) +
+         " exchange_i <= n_i";
 }
 
 std::string chain_of_pairs_range(const Capacity& c) {
@@ -169,7 +201,7 @@ const std::vector<Architecture>& architectures() {
        0,
        true},
       {"sisr",
-       "bootstrap filter, one lane, systematic resampling of a step beside the next one's proposals",
+       "bootstrap filter, one lane, resampling of a step beside the next one's proposals",
        "mote_sisr",
        "mote/hardware/filters/sisr.hpp",
        {kParticles},
@@ -179,7 +211,11 @@ const std::vector<Architecture>& architectures() {
        cloud_parameters,
        cloud_range,
        cloud_capacity,
-       golden_cloud},
+       golden_cloud,
+       false,
+       0,
+       false,
+       true},
       {"sisr-lanes",
        "bootstrap filter, lanes abreast, systematic resampling of a step beside the next one's proposals",
        "mote_sisr",
@@ -200,10 +236,31 @@ const std::vector<Architecture>& architectures() {
        1,
        false,
        6,
-       no_parameters,
+       loop_parameters,
        cloud_range,
        cloud_capacity,
-       golden_loops},
+       golden_loops,
+       false,
+       0,
+       false,
+       true,
+       true},
+      {"groups",
+       "parallel particle filter: a group a lane, each resamples by itself, a ring exchanges children",
+       "mote_groups",
+       "mote/hardware/filters/groups.hpp",
+       {kParticles, kExchange},
+       8,
+       false,
+       5,
+       cloud_parameters,
+       group_range,
+       group_capacity,
+       golden_groups,
+       false,
+       0,
+       false,
+       true},
   };
   return all;
 }

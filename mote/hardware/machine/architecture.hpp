@@ -10,11 +10,14 @@
 #include "mote/hardware/circuit.hpp"
 #include "mote/hardware/filters/estimate.hpp"
 #include "mote/hardware/filters/imh.hpp"
+#include "mote/hardware/filters/sisr.hpp"
 
 namespace mote::hardware {
 
 /// What a run is told; a filter takes what it has a register for.
-using RunRegisters = ImhRegisters;
+struct RunRegisters : ImhRegisters {
+  std::uint32_t exchange = 0;  ///< M, particles that each group hands on
+};
 
 /// A register of a filter, written before a run starts.
 struct Register {
@@ -24,12 +27,19 @@ struct Register {
   std::uint32_t (*value)(const RunRegisters&) = nullptr;
 };
 
+/// How a filter is built where its kind has a choice.
+struct Variant {
+  Resampler resampler = Resampler::kSystematic;
+  PlainLoops loops = {};    ///< of the filter in separate loops
+  bool overlapped = false;  ///< a step of chains begins while the one before is still decided on
+};
+
 /// How large a circuit is made: what its registers may be told at most.
 struct Capacity {
   unsigned at = 10;           ///< counts go up to 2^at
   std::uint32_t most = 1024;  ///< particles; a power of two
   unsigned lanes = 1;         ///< side by side, each with its own part of the particles
-  bool overlapped = false;    ///< a step of chains begins while the one before is still decided on
+  Variant variant = {};
 
   unsigned slot_bits() const { return static_cast<unsigned>(ceil_log2(std::max(2U, most / lanes))); }
 };
@@ -62,9 +72,11 @@ struct Architecture {
   bool folded = false;         ///< one chain before all lanes
   unsigned stages_a_lane = 0;  ///< that each lane adds to the stages
   bool pairs = false;          ///< weighs pairs of state and parent, so that any proposal will do
+  bool schemes = false;        ///< resamples by any scheme of Resampler
+  bool loops = false;          ///< in loops that can be pipelined and merged
 
   /// How its chains are fed.
-  ImhLanes fed(const Capacity& c) const { return {c.lanes, Parents::kBanked, folded, c.overlapped}; }
+  ImhLanes fed(const Capacity& c) const { return {c.lanes, Parents::kBanked, folded, c.variant.overlapped}; }
   /// Proposals of a step, of all lanes.
   std::uint64_t offered(const RunRegisters& r, const Capacity& c) const {
     return chain ? std::uint64_t{c.lanes} * fed(c).rows(r) : r.particles;

@@ -96,13 +96,13 @@ void refuse_wide_sums(const Formats& f, const Capacity& capacity) {
 }  // namespace
 
 Machine::Machine(ModelCircuit model, const Architecture& architecture, const RunRegisters& most, std::uint64_t seed,
-                 unsigned lanes, bool overlapped)
+                 unsigned lanes, const Variant& variant)
     : name_("mote_" + model.name + "_" + std::string(architecture.name)),
       model_(std::move(model)),
       architecture_(&architecture),
       capacity_(architecture.capacity(most, lanes)),
       seed_(seed) {
-  capacity_.overlapped = overlapped;
+  capacity_.variant = variant;
   std::replace(name_.begin(), name_.end(), '-', '_');
   refuse_wide_sums(formats(), capacity_);
 }

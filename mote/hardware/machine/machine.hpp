@@ -24,7 +24,7 @@ class Machine {
  public:
   /// shape   most: the most that registers may be told
   Machine(ModelCircuit model, const Architecture& architecture, const RunRegisters& most, std::uint64_t seed = 1,
-          unsigned lanes = 1, bool overlapped = false);
+          unsigned lanes = 1, const Variant& variant = {});
 
   const std::string& name() const { return name_; }
   const ModelCircuit& model() const { return model_; }

@@ -13,29 +13,45 @@
 namespace mote::hardware {
 namespace {
 
-const RunRegisters kMost{300, 400, 40, false};
+const RunRegisters kMost{256, 400, 40, false, 5};  // as many particles as the memories hold
+
+/// An architecture, built one way or another.
+struct Kind {
+  const Architecture* architecture;
+  Variant variant = {};
+
+  unsigned lanes(unsigned most) const { return std::min(most, architecture->most_lanes); }
+  Machine machine(std::uint64_t seed, unsigned lanes) const {
+    Variant built = variant;
+    built.overlapped = architecture->folded;  // one kind overlapped
+    return {local_level_circuit(), *architecture, kMost, seed, lanes, built};
+  }
+};
 
 /// claim   circuit and golden model write the same particles and give the same estimates, with streams that pause and
 ///         without, and after a reset in mid-run; cycles are the golden model's own when nothing pauses
 /// twin    the golden model of another seed, of which every step differs
-class Machines : public ::testing::TestWithParam<const Architecture*> {};
+class Machines : public ::testing::TestWithParam<Kind> {};
 
-std::vector<const Architecture*> all_architectures() {
-  std::vector<const Architecture*> all;
-  for (const Architecture& one : architectures()) all.push_back(&one);
+std::vector<Kind> all_architectures() {
+  std::vector<Kind> all;
+  for (const Architecture& one : architectures()) all.push_back({&one});
   return all;
 }
 
-std::string shown(const ::testing::TestParamInfo<const Architecture*>& info) {
-  std::string name(info.param->name);
+std::string shown(const ::testing::TestParamInfo<Kind>& info) {
+  std::string name(info.param.architecture->name);
   std::replace(name.begin(), name.end(), '-', '_');
-  return name;
+  const Variant& variant = info.param.variant;
+  if (variant.resampler == Resampler::kResidualSystematic) name += "_residual";
+  if (variant.resampler == Resampler::kRoulette) name += "_roulette";
+  if (variant.loops.merged) return name + "_merged";
+  return variant.loops.pipelined ? name + "_pipelined" : name;
 }
 
 TEST_P(Machines, EqualTheirGoldenModels) {
-  const unsigned lanes = std::min(4U, GetParam()->most_lanes);
-  const Machine machine(local_level_circuit(), *GetParam(), kMost, 7, lanes,
-                        GetParam()->folded);  // one kind overlapped
+  const unsigned lanes = GetParam().lanes(4);
+  const Machine machine = GetParam().machine(7, lanes);
   Simulator circuit(machine);
   const auto golden = machine.golden();
   const auto equal = [&](const RunRegisters& registers, StreamPauses pauses) {
@@ -50,24 +66,24 @@ TEST_P(Machines, EqualTheirGoldenModels) {
     }
   };
   equal(kMost, {});
-  equal({lanes, lanes, 0, false}, {});
-  equal({256, 300, 10, false}, {40, 40, 3});
-  equal({92, 92, 0, true}, {220, 220, 5});
+  equal({lanes, lanes, 0, false, 1}, {});
+  equal({148, 300, 10, false, 0}, {40, 40, 3});
+  equal({92, 92, 0, true, 23}, {220, 220, 5});
 
   const auto observed = level_observations(5, 9);
   EXPECT_FALSE(circuit.run({52, 60, 5, false}, observed, {}, 150).complete);
   circuit.reset();
   const CircuitRun run = circuit.run({52, 60, 5, false}, observed);
   EXPECT_EQ(agreement(run, *machine.golden(), {52, 60, 5, false}, observed).mismatches, 0U);
-  EXPECT_GE(agreement(run, *GetParam()->golden(machine.model().arithmetic, 8, machine.capacity()), {52, 60, 5, false},
-                      observed)
+  EXPECT_GE(agreement(run, *GetParam().architecture->golden(machine.model().arithmetic, 8, machine.capacity()),
+                      {52, 60, 5, false}, observed)
                 .mismatches,
             5U * 45)
       << "the twin";
 }
 
 TEST_P(Machines, NameWhatTheyNeedAndNoMore) {
-  const Machine machine(local_level_circuit(), *GetParam(), kMost);
+  const Machine machine = GetParam().machine(1, 1);
   std::string names;
   for (const DesignFile& file : machine.modules("")) names += file.name + " ";
   for (const char* needed : {"mote_estimate.sv", "mote_piecewise.sv", "mote_words.sv", "local_level_weigh.sv"})
@@ -81,8 +97,7 @@ TEST_P(Machines, NameWhatTheyNeedAndNoMore) {
 
 // Debian's Yosys has no grammar for packed arrays of several dimensions, casts to named types, `return` in functions.
 TEST_P(Machines, AreReadByYosys) {
-  const Machine machine(local_level_circuit(), *GetParam(), kMost, 1, std::min(2U, GetParam()->most_lanes),
-                        GetParam()->folded);
+  const Machine machine = GetParam().machine(1, GetParam().lanes(2));
   const ScratchFolder scratch;
   const std::string folder = scratch.path().string() + "/";
   for (const DesignFile& file : machine.modules(folder)) write_text(folder + file.name, file.text);
@@ -92,6 +107,14 @@ TEST_P(Machines, AreReadByYosys) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Machines, ::testing::ValuesIn(all_architectures()), shown);
+
+// The schemes beside systematic resampling; nightly tests have them in every architecture.
+std::vector<Kind> schemes() {
+  const auto sisr = std::find_if(architectures().begin(), architectures().end(),
+                                 [](const Architecture& one) { return one.name == "sisr"; });
+  return {{&*sisr, {Resampler::kResidualSystematic, {}}}, {&*sisr, {Resampler::kRoulette, {}}}};
+}
+INSTANTIATE_TEST_SUITE_P(Schemes, Machines, ::testing::ValuesIn(schemes()), shown);
 
 TEST(Machine, RefusesMoreParticlesThanItsSumsHold) {
   EXPECT_THROW(Machine(local_level_circuit(), architectures().front(), {1U << 22, 1U << 22, 0, false}), Refusal);

@@ -1,10 +1,10 @@
 // The bootstrap filter, merged and overlapped, by one lane or several: propagate, weigh and sum in one pass; the resampling
 // of a step walks beside the propagation of the next.
 //
-//   x' ~ p(. | x_a(j)),  lw = log2 p(y | x'),  a(j) by systematic resampling, every step
+//   x' ~ p(. | x_a(j)),  lw = log2 p(y | x'),  a(j) by resampling, every step
 //   mean = sum w x' / sum w, before resampling
 //
-// Lane l has the children Lanes k + l (mote_resample).
+// Lane l has the children Lanes k + l (a Scheme of mote_resample).
 // The arithmetic of a model is outside, as for mote_imh. t_o and obs_o stand from 3 cycles before the first state of a
 // step reaches propose until its last leaves weigh. At t = 1 the parent's state is undefined.
 //
@@ -17,6 +17,7 @@
 // source   FPGA (merged loops, dataflow); Kitagawa 1996
 module mote_sisr #(
     parameter int unsigned Lanes          = 1,
+    parameter int unsigned Scheme         = 0,
     parameter int unsigned Dims           = 1,
     parameter int unsigned ValueWidth     = 18,
     parameter int unsigned ObsWidth       = 32,
@@ -174,9 +175,10 @@ module mote_sisr #(
   end
 
   // ---- resampling
+  logic [15:0] estimates_left_q;
   logic [SumWidth-1:0] total;
   mote_resample #(
-      .Lanes(Lanes), .At(At), .Width(WeightWidth), .ScaleWidth(ScaleWidth), .Seed(Seed), .Stream(Stream)
+      .Lanes(Lanes), .Scheme(Scheme), .At(At), .Width(WeightWidth), .ScaleWidth(ScaleWidth), .Seed(Seed), .Stream(Stream)
   ) u_resample (
       .clk_i, .rst_ni,
       .starts_i(starts),
@@ -186,12 +188,12 @@ module mote_sisr #(
       .weight_i(weight),
       .scale_i(scale),
       .total_i(total),
+      .more_i(estimates_left_q != '0),
       .valid_o(parent_valid),
       .ready_i(issues_q && !first_q),
       .parent_o(parent));
 
   // ---- estimates
-  logic [15:0] estimates_left_q;
   logic unused_pending;
   logic [At:0] unused_accepted;
   always_ff @(posedge clk_i or negedge rst_ni) begin

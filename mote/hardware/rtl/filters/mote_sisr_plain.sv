@@ -2,12 +2,12 @@
 // estimates and sets, bit for bit.
 //
 //   propagate  x'_j ~ p(. | x_a(j))       weigh    lw_j = log2 p(y | x'_j)
-//   normalise  w_j = 2^lw_j, sums         resample a(j) by mote_resample
+//   normalise  w_j = 2^lw_j, sums         resample a(j) by a Scheme of mote_resample
 //
 // Pipelined 0: a loop's next turn begins when the one before is through; 1: turns follow each other cycle by cycle.
 // Merged 1: the first three loops are one. Ports, formats and words are mote_sisr's.
 //
-// range    1 <= n_i <= 2^At, At >= 2. Registers are read at start_i
+// range    1 <= n_i <= 2^At, At >= 6. Registers are read at start_i
 // timing   turns of ProposeLatency + 5, WeighLatency + 3, 8 and 8 cycles (merged: ProposeLatency + WeighLatency + 8, 8), or
 //          of one cycle and the rest once a loop; the golden model counts cycles exactly
 // golden   mote/hardware/filters/sisr.hpp (PlainLoops)
@@ -15,6 +15,7 @@
 module mote_sisr_plain #(
     parameter int unsigned Pipelined      = 0,
     parameter int unsigned Merged         = 0,
+    parameter int unsigned Scheme         = 0,
     parameter int unsigned Dims           = 1,
     parameter int unsigned ValueWidth     = 18,
     parameter int unsigned ObsWidth       = 32,
@@ -200,9 +201,10 @@ module mote_sisr_plain #(
   mote_delay #(.Width(StateWidth), .Depth(3)) u_summed_state (.clk_i, .d_i(logged_state), .d_o(summed_state));
 
   // ---- resample
+  logic [15:0] estimates_left_q;
   logic parent_valid;
   mote_resample #(
-      .At(At), .Width(WeightWidth), .ScaleWidth(ScaleWidth), .Seed(Seed), .Stream(Stream)
+      .Scheme(Scheme), .At(At), .Width(WeightWidth), .ScaleWidth(ScaleWidth), .Seed(Seed), .Stream(Stream)
   ) u_parent (
       .clk_i, .rst_ni,
       .starts_i(starts),
@@ -212,6 +214,7 @@ module mote_sisr_plain #(
       .weight_i(weight),
       .scale_i(scale),
       .total_i(total),
+      .more_i(estimates_left_q != '0),
       .valid_o(parent_valid),
       .ready_i(resample_valid),
       .parent_o(parent));
@@ -224,7 +227,6 @@ module mote_sisr_plain #(
   end
 
   // ---- estimates
-  logic [15:0] estimates_left_q;
   logic unused_pending;
   logic [At:0] unused_accepted;
   always_ff @(posedge clk_i or negedge rst_ni) begin
