@@ -49,7 +49,7 @@ FilterCircuit filter_circuit(const CatalogueModel& model, const std::string& nam
   options.prefix = "mote_" + identifier(name);
   FilterCircuit circuit{study.recorded(), hardware::datapath(study.recorded(), study.samples(), options), nullptr};
   circuit.machine = std::make_shared<hardware::Machine>(model_circuit(identifier(name), circuit), *design.architecture,
-                                                        design.registers, design.seed, design.lanes);
+                                                        design.registers, design.seed, design.lanes, design.access);
   return circuit;
 }
 

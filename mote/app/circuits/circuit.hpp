@@ -16,6 +16,7 @@ struct CircuitDesign {
   hardware::RunRegisters registers;  ///< of the runs to come; the circuit has room for no more
   std::uint64_t seed = 1;
   unsigned lanes = 1;
+  hardware::RegisterAccess access = hardware::RegisterAccess::kPorts;
 };
 
 /// A circuit, and what the host knows of its model.

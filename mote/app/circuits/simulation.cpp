@@ -78,11 +78,11 @@ std::vector<std::vector<std::int64_t>> observed_by(const FilterCircuit& circuit,
 }
 
 CircuitSimulation simulated_run(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
-                                const std::string& where) {
+                                const std::string& where, bool counts_changes) {
   const auto observed = observed_by(circuit, recording, where);
-  hardware::Simulator simulator(*circuit.machine);
+  hardware::Simulator simulator(*circuit.machine, counts_changes);
   const hardware::CircuitRun run = simulator.run(design.registers, observed);
-  return {hardware::agreement(run, *circuit.machine->golden(), design.registers, observed),
+  return {hardware::agreement(run, *circuit.machine->golden(), design.registers, observed), run.activity,
           record_of(circuit, design, recording, run.estimates)};
 }
 

@@ -54,14 +54,16 @@ void refuse_uneven(const Arguments& arguments, const CircuitDesign& design) {
 std::vector<OptionSpec> circuit_options() {
   std::string kinds;
   for (const Architecture& one : architectures()) kinds += (kinds.empty() ? "" : ", ") + std::string(one.name);
-  return {{"--arch", "KIND", "imh", "kind of filter: " + kinds, "Circuit"},
-          {"-n,--particles", "N", "1000", "particles, from 1 to 65536", "Circuit"},
-          {"--draws", "Q", "", "imh: proposals a step beside the burn-in, at least N [N]", "Circuit"},
-          {"--burn-in", "NB", "0", "imh: proposals that the chain forgets", "Circuit"},
-          {"--chain-mean", "", "", "imh: estimate from the kept states instead of all weighted proposals", "Circuit"},
-          {"--lanes", "L", "", "imh-parallel: chains, sisr-lanes: lanes, a power of two [4]", "Circuit"},
-          {"--seed", "S", "1", "seed of the circuit's generators; same seed, same words", "Circuit"},
-          {"--synth", "FAMILY", "", "what it takes of a device: xc7, ice40 or ecp5 (Yosys, nextpnr) [none]", "Checks"}};
+  return {
+      {"--arch", "KIND", "imh", "kind of filter: " + kinds, "Circuit"},
+      {"-n,--particles", "N", "1000", "particles, from 1 to 65536", "Circuit"},
+      {"--draws", "Q", "", "imh: proposals a step beside the burn-in, at least N [N]", "Circuit"},
+      {"--burn-in", "NB", "0", "imh: proposals that the chain forgets", "Circuit"},
+      {"--chain-mean", "", "", "imh: estimate from the kept states instead of all weighted proposals", "Circuit"},
+      {"--lanes", "L", "", "imh-parallel: chains, sisr-lanes: lanes, a power of two [4]", "Circuit"},
+      {"--seed", "S", "1", "seed of the circuit's generators; same seed, same words", "Circuit"},
+      {"--registers", "KIND", "ports", "how registers are reached: ports or axi-lite (an AXI4-Lite bus)", "Circuit"},
+      {"--synth", "FAMILY", "", "what it takes of a device: xc7, ice40 or ecp5 (Yosys, nextpnr) [none]", "Checks"}};
 }
 
 CircuitDesign circuit_design_from(const Arguments& arguments) {
@@ -77,6 +79,7 @@ CircuitDesign circuit_design_from(const Arguments& arguments) {
   design.registers.chain_mean = arguments.given("--chain-mean");
   design.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 0, 9223372036854775807LL));
   design.lanes = lanes_from(arguments, design);
+  design.access = static_cast<hardware::RegisterAccess>(arguments.choice("--registers", {"ports", "axi-lite"}));
   refuse_unread(arguments, design);
   refuse_uneven(arguments, design);
   return design;

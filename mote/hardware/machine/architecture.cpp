@@ -33,7 +33,9 @@ std::unique_ptr<Golden> golden_chains(const Arithmetic& arithmetic, std::uint64_
 }
 
 std::unique_ptr<Golden> golden_cloud(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity& capacity) {
-  return std::make_unique<GoldenOf<Sisr>>(arithmetic, seed, 0, capacity.lanes);
+  Arithmetic sized = arithmetic;
+  sized.formats.count_bits = capacity.at;
+  return std::make_unique<GoldenOf<Sisr>>(sized, seed, 0, capacity.lanes);
 }
 
 std::unique_ptr<Golden> golden_loops(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity&) {
@@ -96,7 +98,8 @@ const std::vector<Architecture>& architectures() {
        chain_parameters,
        chain_range,
        chain_capacity,
-       golden_chains},
+       golden_chains,
+       "imh.h"},
       {"imh-parallel",
        "independent Metropolis-Hastings, chains in lockstep, parents from all of them in turn",
        "mote_imh",
@@ -108,7 +111,8 @@ const std::vector<Architecture>& architectures() {
        chain_parameters,
        chain_range,
        chain_capacity,
-       golden_chains},
+       golden_chains,
+       "imh.h"},
       {"sisr",
        "bootstrap filter, one lane, systematic resampling of a step beside the next one's proposals",
        "mote_sisr",
@@ -120,7 +124,8 @@ const std::vector<Architecture>& architectures() {
        cloud_parameters,
        cloud_range,
        cloud_capacity,
-       golden_cloud},
+       golden_cloud,
+       "sisr.h"},
       {"sisr-lanes",
        "bootstrap filter, lanes abreast, systematic resampling of a step beside the next one's proposals",
        "mote_sisr",
@@ -132,7 +137,8 @@ const std::vector<Architecture>& architectures() {
        cloud_parameters,
        cloud_range,
        cloud_capacity,
-       golden_cloud},
+       golden_cloud,
+       "sisr.h"},
       {"sisr-plain",
        "bootstrap filter in separate loops, nothing overlapped: what the others are measured against",
        "mote_sisr_plain",
@@ -144,7 +150,8 @@ const std::vector<Architecture>& architectures() {
        no_parameters,
        cloud_range,
        cloud_capacity,
-       golden_loops},
+       golden_loops,
+       "sisr.h"},
   };
   return all;
 }

@@ -62,6 +62,7 @@ struct Architecture {
     return chain ? std::uint64_t{lanes} * r.proposals(lanes) : r.particles;
   }
   std::unique_ptr<Golden> (*golden)(const Arithmetic&, std::uint64_t seed, const Capacity&);
+  std::string_view c_filter = {};  ///< its golden model in C: a file of machine/golden
 };
 
 /// All kinds, the simplest first.
