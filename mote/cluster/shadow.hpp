@@ -9,6 +9,7 @@
 #include "mote/base/draws.hpp"
 #include "mote/engine/team.hpp"
 #include "mote/software/share.hpp"
+#include "mote/software/simd/block_sums.hpp"
 
 namespace mote {
 
@@ -53,50 +54,80 @@ class Shadow {
     if (resampled_) move_children();
     work();
     sum_weights(t);
-    for (int moment = 0; moment < 2; ++moment) {
-      std::vector<double> exponents(cloud_.dimensions);
-      team_->largest(exponents);
-      std::vector<ExactSum> sums(cloud_.dimensions);
-      team_->add(sums);
-    }
+    if (!told())
+      for (int moment = 0; moment < 2; ++moment) {
+        std::vector<double> exponents(cloud_.dimensions);
+        team_->largest(exponents);
+        std::vector<ExactSum> sums(cloud_.dimensions);
+        team_->add(sums);
+      }
     for (std::size_t angle = 0; angle < cloud_.angles; ++angle) {
       std::array<ExactSum, 2> sums;
       team_->add(sums);
     }
-    born_first_ = first_child(t);
+    find_births(t);
     resampled_ = true;
   }
 
  private:
+  bool told() const { return BlockSums::tells(home_.count, home_.all); }
+
+  /// A rank's weight sum over N.
+  ExactSum weight_of(std::size_t rank, Step t) const {
+    auto block = Draws{cloud_.seed, static_cast<std::uint32_t>(t)}.block(Purpose::kTest, rank);
+    const auto n = static_cast<double>(owned_[rank].count);
+    const double weight = n * std::max(0.0, 1 + cloud_.variation * block.particle(0).normal() / std::sqrt(n));
+    ExactSum sum;
+    sum.add(weight / static_cast<double>(home_.all));
+    return sum;
+  }
+
   void sum_weights(Step t) {
+    if (told()) {
+      const std::size_t numbers = 3 * (1 + cloud_.dimensions);  // of a block
+      sums_.resize(blocks_of(home_.all) * numbers);
+      std::vector<std::size_t> begins = begins_of_shares(home_.all, team_->ranks());
+      for (std::size_t& begin : begins) begin = blocks_of(begin) * numbers;
+      team_->complete(std::as_writable_bytes(std::span(sums_)), begins);
+      return;
+    }
     double reference = 0;
     team_->largest({&reference, 1});
-    auto block = Draws{cloud_.seed, static_cast<std::uint32_t>(t)}.block(Purpose::kTest, team_->rank());
-    const auto n = static_cast<double>(home_.count);
-    const double weight = n * std::max(0.0, 1 + cloud_.variation * block.particle(0).normal() / std::sqrt(n));
+    mine_ = weight_of(team_->rank(), t);
     std::array<ExactSum, 2> sums;
-    sums[0].add(weight / static_cast<double>(home_.all));
-    mine_ = sums[0];
+    sums[0] = mine_;
     team_->add(sums);
     all_ = sums[0];
   }
 
-  /// The first child of this rank's particles.
-  std::uint32_t first_child(Step t) {
-    const ExactSum before = team_->before(mine_);
+  /// The first child of every rank's particles.
+  void find_births(Step t) {
     const auto n = static_cast<double>(home_.all);
     const double u = Draws{cloud_.seed, static_cast<std::uint32_t>(t)}.uniform(Purpose::kSelect);
-    const double position = std::ceil(before.value() / all_.value() * n - u);
-    return static_cast<std::uint32_t>(before == all_ ? n : std::clamp(position, 0.0, n));
+    const auto child_behind = [&](const ExactSum& before) {
+      const double position = std::ceil(before.value() / all_.value() * n - u);
+      return static_cast<std::uint32_t>(before == all_ ? n : std::clamp(position, 0.0, n));
+    };
+    if (told()) {
+      std::vector<ExactSum> before(team_->ranks() + 1);
+      for (std::size_t r = 0; r < team_->ranks(); ++r) {
+        before[r + 1] = before[r];
+        before[r + 1] += weight_of(r, t);
+      }
+      all_ = before.back();
+      born_.clear();
+      for (const ExactSum& sum : before) born_.push_back(child_behind(sum));
+      return;
+    }
+    born_ = team_->gather(child_behind(team_->before(mine_)));
+    born_.push_back(static_cast<std::uint32_t>(home_.all));
   }
 
   /// Sends every other rank the children whose places it owns: a parcel for each component.
   void move_children() {
-    std::vector<std::uint32_t> born = team_->gather(born_first_);
-    born.push_back(static_cast<std::uint32_t>(home_.all));
     const auto bytes = [&](std::size_t parents, std::size_t owner) {
-      const auto first = std::max<std::size_t>(born[parents], owned_[owner].first);
-      const auto end = std::min<std::size_t>(born[parents + 1], owned_[owner].end());
+      const auto first = std::max<std::size_t>(born_[parents], owned_[owner].first);
+      const auto end = std::min<std::size_t>(born_[parents + 1], owned_[owner].end());
       return first < end ? (end - first) * cloud_.number_bytes : 0;
     };
     std::vector<ParcelOut> out;
@@ -117,7 +148,8 @@ class Shadow {
   std::vector<Share> owned_;  // by rank
   std::span<std::byte> anywhere_;
   ExactSum mine_, all_;
-  std::uint32_t born_first_ = 0;
+  std::vector<std::uint32_t> born_;  // by rank: the first child of its particles; then N
+  std::vector<double> sums_;         // of all blocks, where they are told
   bool resampled_ = false;
 };
 

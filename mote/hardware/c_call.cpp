@@ -45,7 +45,13 @@ std::string c_call(const Circuit& circuit, std::size_t table, const std::vector<
   }
   for (const std::string& name : in) arguments += ", " + name;
   for (const std::string& name : out) arguments += ", &" + name;
-  return lines + ";\n  " + circuit.module + "(" + arguments + ");\n";
+  lines += ";\n  " + circuit.module + "(" + arguments + ");\n";
+  if (generated || circuit.memories.empty()) return lines;
+  // a table's words come as bits
+  for (std::size_t p = 0; p < out.size(); ++p)
+    lines += "  " + out[p] + " = mote_cut((uint64_t)" + out[p] + ", " + (circuit.outputs[p].sign ? "1" : "0") + ", " +
+             std::to_string(circuit.outputs[p].width) + ");\n";
+  return lines;
 }
 
 }  // namespace mote::hardware

@@ -119,6 +119,10 @@ std::map<std::string, int> cells_after(const std::string& folder, const std::str
   return cells_of(read_text(folder + "stat.txt"));
 }
 
+std::string xc7_script(const std::string& top) {
+  return "synth_xilinx -family xc7 -flatten -noiopad -top " + top + "; opt_merge; opt_clean";
+}
+
 Area xc7_area(const std::map<std::string, int>& cells) {
   return {total(cells, {"LUT", "INV"}) + memory_luts(cells), total(cells, {"FDRE", "FDSE", "FDCE", "FDPE"}),
           total(cells, {"DSP48E1"}), total(cells, {"RAMB18E1"}) + 2 * total(cells, {"RAMB36E1"})};
@@ -128,7 +132,7 @@ Area xc7_area(const Circuit& circuit) {
   const ScratchFolder scratch;
   const std::string folder = scratch.path().string() + "/";
   write_bench(folder, "core", {circuit});
-  return xc7_area(cells_after(folder, "synth_xilinx -family xc7 -flatten -noiopad -top core"));
+  return xc7_area(cells_after(folder, xc7_script("core")));
 }
 
 Routed ice40_routed(const Circuit& circuit, int seed) {

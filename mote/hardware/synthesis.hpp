@@ -28,6 +28,9 @@ Area xc7_area(const Circuit& circuit);
 /// error   Refusal (kOutsideTool) when yosys is missing or fails
 std::map<std::string, int> cells_after(const std::string& folder, const std::string& script);
 
+/// What Yosys does for a Xilinx 7-series device; the inverters that it leaves at each flip-flop's reset become one.
+std::string xc7_script(const std::string& top);
+
 /// How many cells are of kinds with these beginnings.
 int total(const std::map<std::string, int>& cells, const std::vector<std::string>& beginnings);
 

@@ -123,18 +123,21 @@ Notes notes_of_filter(Plan plan, const NotingTeam::Noted& noted) {
 // claim    the shadows ask of a team what the filters ask, in their order
 // referee  the filters of --engine mpi
 TEST(Shadow, AsksWhatTheFilterAsks) {
-  const Notes of_shadow = notes_of_rank_1(
-      [](Team& team) {
-        const ShadowCloud cloud{.particles = 9000, .dimensions = kDimensions};
-        std::vector<std::byte> anywhere(Shadow::parcel_bytes(cloud, 3));
-        Shadow shadow(team, cloud, anywhere);
-        for (Step t = 1; t <= kSteps; ++t) shadow.step(t, [] {});
-      },
-      rest_of_bytes);
-  Plan plan;
-  plan.particles = 9000;
-  EXPECT_EQ(of_shadow, notes_of_filter(plan, rest_of_bytes));
-  EXPECT_GT(of_shadow.size(), 40U);
+  // few blocks, of which every rank is told all sums, and many, whose sums are added up in turn
+  for (const auto& [particles, least] : {std::pair{std::size_t{9000}, 10U}, {1100 * kBlock, 40U}}) {
+    const Notes of_shadow = notes_of_rank_1(
+        [&](Team& team) {
+          const ShadowCloud cloud{.particles = particles, .dimensions = kDimensions};
+          std::vector<std::byte> anywhere(Shadow::parcel_bytes(cloud, 3));
+          Shadow shadow(team, cloud, anywhere);
+          for (Step t = 1; t <= kSteps; ++t) shadow.step(t, [] {});
+        },
+        rest_of_bytes);
+    Plan plan;
+    plan.particles = particles;
+    EXPECT_EQ(of_shadow, notes_of_filter(plan, rest_of_bytes));
+    EXPECT_GE(of_shadow.size(), least);
+  }
 }
 
 TEST(ChainShadow, AsksWhatTheFilterAsks) {

@@ -24,7 +24,7 @@ struct Formats {
   unsigned weight_bits = 24;  ///< of a weight at the running scale
   unsigned extra_bits = 8;    ///< fraction bits of a mean beyond those of the state
   unsigned propose_latency = 4, weigh_latency = 4;
-  unsigned count_bits = 10;  ///< At of a circuit that resamples by several lanes: N <= 2^count_bits
+  unsigned count_bits = 10;  ///< At of a circuit that resamples: N <= 2^count_bits, from 6
 };
 
 /// A model as the circuit computes it.

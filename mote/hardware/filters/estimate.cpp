@@ -1,5 +1,6 @@
 #include "mote/hardware/filters/estimate.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace mote::hardware {
@@ -12,20 +13,26 @@ double log2_evidence(const Estimate& estimate, const Formats& formats, std::uint
 
 std::uint64_t sum_of(std::span<const ScaledWeight> weights) {
   std::uint64_t sum = 0;
-  for (const ScaledWeight& w : weights) sum = (sum >> (kQuantum * w.rise)) + w.weight;
+  for (const ScaledWeight& w : weights) sum = lowered(sum, w.rise) + w.weight;
   return sum;
 }
 
 std::vector<std::int64_t> weighted_means(const Particles& states, std::span<const ScaledWeight> weights,
-                                         std::uint64_t divisor, unsigned extra) {
+                                         std::uint64_t divisor, const Formats& formats) {
   __extension__ using Wide = __int128;
+  const unsigned dropped = std::min(8U, formats.value_bits - 1);
+  const std::int64_t half = std::int64_t{1} << (dropped - 1);
   std::vector<std::int64_t> means;
   means.reserve(states.size());
   for (const auto& column : states) {
     std::int64_t total = 0;
-    for (std::size_t j = 0; j < weights.size(); ++j)
-      total = (total >> (kQuantum * weights[j].rise)) + column[j] * static_cast<std::int64_t>(weights[j].weight);
-    means.push_back(static_cast<std::int64_t>(Wide{total} * (Wide{1} << extra) / static_cast<Wide>(divisor)));
+    for (std::size_t j = 0; j < weights.size(); ++j) {
+      const std::int64_t product = column[j] * static_cast<std::int64_t>(weights[j].weight);
+      total = lowered(total, weights[j].rise) + ((product + half) >> dropped);
+    }
+    const Wide numerator = Wide{total} * (Wide{1} << (dropped + formats.extra_bits));
+    const Wide cut = numerator / static_cast<Wide>(divisor);
+    means.push_back(static_cast<std::int64_t>(cut - (cut * static_cast<Wide>(divisor) > numerator ? 1 : 0)));
   }
   return means;
 }

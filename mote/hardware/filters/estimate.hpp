@@ -1,6 +1,7 @@
 #pragma once
 /// Sums over a step's particles and the means by division, golden twin of rtl/filters/mote_estimate.sv.
 
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,15 +28,19 @@ double log2_evidence(const Estimate& estimate, const Formats& formats, std::uint
 /// Sum of a step's weights, at the scale of the last.
 std::uint64_t sum_of(std::span<const ScaledWeight> weights);
 
-/// Weighted means of a step's states: sum v x / divisor, cut towards zero, each sum going down by the scale's rise
-/// before a row is added.
+/// Weighted means of a step's states: floor(sum v x / divisor), each sum going down by the scale's rise before a row is
+/// added.
 ///
-/// shape   states: dims columns of n; weights: (n); means: (dims), `extra` fraction bits more than the states
+/// Products are rounded to 8 bits less (those of narrow states to one bit less than a state has), halves up.
+///
+/// shape   states: dims columns of n, value_bits each; weights: (n); means: (dims), extra_bits fraction bits more than
+/// the
+///         states
 std::vector<std::int64_t> weighted_means(const Particles& states, std::span<const ScaledWeight> weights,
-                                         std::uint64_t divisor, unsigned extra);
+                                         std::uint64_t divisor, const Formats& formats);
 
-/// Stages by which a row of several lanes is added up.
-constexpr std::uint64_t row_cycles(std::size_t lanes) { return lanes > 1 ? 1 : 0; }
+/// Stages by which a row of several lanes is added up, a power of two of them.
+constexpr std::uint64_t row_cycles(std::size_t lanes) { return static_cast<std::uint64_t>(std::countr_zero(lanes)); }
 
 /// Cycles from taking the sums of a step to its estimate on the stream.
 constexpr std::uint64_t division_cycles(const Formats& f) {

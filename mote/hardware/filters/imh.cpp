@@ -90,16 +90,17 @@ Estimate Imh::infer() {
   scale_weights(log_weights_, lanes_.count, f.weight_bits, weights_);
   const std::uint64_t sum = sum_of(weights_);
   const std::int64_t scale = weights_.back().scale;
-  if (!registers_.chain_mean) return {weighted_means(proposals_, weights_, sum, f.extra_bits), sum, scale, 0};
+  if (!registers_.chain_mean) return {weighted_means(proposals_, weights_, sum, f), sum, scale, 0};
   const std::vector<ScaledWeight> equal(kept_.size(), {1 << 16, 0, 0});
-  return {weighted_means(set_, equal, sum_of(equal), f.extra_bits), sum, scale, 0};
+  return {weighted_means(set_, equal, sum_of(equal), f), sum, scale, 0};
 }
 
 void Imh::keep_time() {
   pace_.begin();
   const std::uint64_t decided = pace_.begun() + ImhLatency(arithmetic_.formats).step(registers_, lanes_.count);
   pace_.free_from(decided);
-  pace_.sums_stand(decided + 8 + row_cycles(lanes_.count), division_cycles(arithmetic_.formats));
+  pace_.sums_stand(decided + 3 + weight_cycles(lanes_.count) + row_cycles(lanes_.count),
+                   division_cycles(arithmetic_.formats));
 }
 
 }  // namespace mote::hardware

@@ -6,10 +6,20 @@
 namespace mote::hardware {
 
 std::uint32_t reciprocal_of(std::uint32_t x) {
-  const auto entry = [](std::uint32_t i) { return (1U << 26) / (256 + i) - 1; };
-  const std::uint32_t i = (x >> 9) & 255;
-  return entry(i) - (((entry(i) - entry(i + 1)) * (x & 511)) >> 9) - 1;
+  const auto entry = [](std::uint32_t i) { return (1U << 25) / (128 + i) - 5; };
+  const std::uint32_t i = (x >> 10) & 127;
+  return ((entry(i) << 10) - (entry(i) - entry(i + 1)) * (x & 1023)) >> 10;
 }
+
+namespace {
+
+/// A weight some quanta lower and whole bytes higher, cut; nothing from kNothing quanta on.
+std::uint64_t moved(std::uint64_t weight, unsigned down, unsigned up) {
+  if (down >= kNothing) return 0;
+  return up >= down ? weight << (8 * (up - down)) : weight >> (8 * (down - up));
+}
+
+}  // namespace
 
 std::vector<std::uint32_t> Offspring::ends(std::span<const ScaledWeight> weights, std::uint64_t total,
                                            std::uint32_t uniform) const {
@@ -23,9 +33,8 @@ std::vector<std::uint32_t> Offspring::ends(std::span<const ScaledWeight> weights
   ends.reserve(weights.size());
   std::uint64_t sum = 0;
   for (const ScaledWeight& w : weights) {
-    const std::int64_t by = weights.back().scale - w.scale;
-    sum += by > 7 ? 0 : w.weight >> (kQuantum * static_cast<unsigned>(by));
-    const std::uint64_t share = (sum << zeros) >> (sum_bits - 17);
+    sum += (moved(w.weight, quanta_between(w.scale, weights.back().scale), zeros / 8) << (zeros % 8)) >> count_bits;
+    const std::uint64_t share = sum >> (weight_bits - 17);
     const std::uint64_t place = share * factor + (std::uint64_t{uniform} << (fraction - 24));
     ends.push_back(static_cast<std::uint32_t>(place >> fraction));
   }
@@ -45,7 +54,7 @@ ChildrenWalk::ChildrenWalk(std::span<const std::uint32_t> ends, unsigned lanes, 
       lanes_(lanes),
       rows_((ends.size() + 2 * lanes - 1) / (2 * lanes)),
       latency_(9 + static_cast<std::size_t>(std::countr_zero(lanes))),
-      now_(last_write + 1) {}
+      now_(last_write + (lanes > 4 ? 2 : 1)) {}
 
 /// The children up to a row's last particle.
 std::uint32_t ChildrenWalk::end_of(std::size_t row) const {
@@ -68,7 +77,7 @@ bool ChildrenWalk::cycle(bool ready) {
   if (!window_.empty() && !(completes && shows_)) shows_ = looks() || shows_;
 
   std::size_t freed = 0;
-  if (!queue_.empty() && window_.size() < 2) {
+  if (!queue_.empty() && window_.size() < (lanes_ == 1 ? 1 : 2)) {
     window_.push_back(queue_.front());
     queue_.pop_front();
     ++freed;
@@ -85,7 +94,8 @@ bool ChildrenWalk::cycle(bool ready) {
     flying_.push_back({now_ + latency_, read_++});
     --room_;
   }
-  room_ += freed;
+  room_ += freed_;
+  freed_ = freed;
   ++now_;
   return shown && ready;
 }

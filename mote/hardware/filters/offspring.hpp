@@ -1,6 +1,6 @@
 #pragma once
-/// The golden twin of rtl/filters/mote_offspring.sv, mote_children.sv and mote_reciprocal.sv: the same parents for
-/// several lanes, and the cycles in which they are there.
+/// The golden twin of rtl/filters/mote_resample.sv and its parts, mote_offspring.sv, mote_children.sv and
+/// mote_reciprocal.sv: the same parents, and the cycles in which they are there.
 
 #include <cstdint>
 #include <deque>
@@ -19,7 +19,7 @@ std::uint32_t reciprocal_of(std::uint32_t x);
 /// How many children the particles up to each have together: floor(C_i N / T + v), C_i / T as 17 bits; the last: N.
 ///
 /// shape   weights: (N); result: (N), not decreasing
-/// error   the last particle gains below N 2^-14 children, the others lose as many together
+/// error   the last particle gains below N 2^-13 children, the others lose as many together
 struct Offspring {
   unsigned weight_bits;  ///< of a weight
   unsigned count_bits;   ///< N <= 2^count_bits
@@ -52,7 +52,7 @@ class ChildrenWalk {
   bool looks();
 
   std::span<const std::uint32_t> ends_;
-  std::size_t lanes_, rows_, latency_, read_ = 0, room_ = kRows;
+  std::size_t lanes_, rows_, latency_, read_ = 0, room_ = kRows, freed_ = 0;
   std::uint64_t now_;
   std::uint32_t first_ = 0;     ///< child of the group
   bool shows_ = false;          ///< a group

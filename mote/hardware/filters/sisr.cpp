@@ -6,7 +6,7 @@
 namespace mote::hardware {
 namespace {
 
-constexpr std::uint64_t kOtherTurn = 8;  ///< cycles of a turn of the loops that normalise and resample
+constexpr std::uint64_t kOtherTurn = 6;  ///< cycles of a turn of the loops that normalise and resample
 
 }  // namespace
 
@@ -48,52 +48,33 @@ Estimate Sisr::step(Observed observed) {
 }
 
 void Sisr::choose_parents() {
-  const std::vector<std::uint32_t> parents = loops_ ? walk_last() : lanes_ == 1 ? walk_alone() : walk_abreast();
+  const Offspring offspring{arithmetic_.formats.weight_bits, arithmetic_.formats.count_bits};
+  const std::vector<std::uint32_t> ends = offspring.ends(weights_, total_, uniform_);
+  const ChildrenWalk walk(ends, lanes_, written_.back());
+  loops_ ? walk_last(walk) : walk_beside(walk);
+  const std::vector<std::uint32_t> parents = parents_of(ends);
   for (std::size_t d = 0; d < set_.size(); ++d)
     for (std::size_t j = 0; j < parents.size(); ++j) parents_[d][j] = set_[d][parents[j]];
 }
 
-/// Walks the weights of the step before, as its parents are taken one a cycle.
-std::vector<std::uint32_t> Sisr::walk_alone() {
-  const std::vector<std::uint64_t> sums = cumulative_sums(weights_);
-  SystematicWalk walk(sums, total_, uniform_, written_, written_.back() - 3);
-  std::vector<std::uint32_t> parents;
-  while (parents.size() < issued_.size()) {
-    std::uint32_t parent = 0;
-    const std::uint64_t now = walk.now();
-    if (!walk.cycle(now > pace_.begun(), parent)) continue;
-    issued_[parents.size()] = now;
-    parents.push_back(parent);
-  }
-  return parents;
-}
-
-/// The same by groups of lanes.
-std::vector<std::uint32_t> Sisr::walk_abreast() {
-  const Offspring offspring{arithmetic_.formats.weight_bits, arithmetic_.formats.count_bits};
-  const std::vector<std::uint32_t> ends = offspring.ends(weights_, total_, uniform_);
-  ChildrenWalk walk(ends, lanes_, written_.back());
+/// The walk beside the next step's proposals: parents are taken as they come, once the step has begun.
+void Sisr::walk_beside(ChildrenWalk walk) {
   for (std::size_t k = 0; k < issued_.size();) {
     const std::uint64_t now = walk.now();
-    if (walk.cycle(now > pace_.begun())) issued_[k++] = now;
+    if (walk.cycle(now > pace_.begun() + 1)) issued_[k++] = now;
   }
-  return parents_of(ends);
 }
 
 /// The walk as the last loop of the step before; the next step begins when it is through.
-std::vector<std::uint32_t> Sisr::walk_last() {
-  const std::vector<std::uint64_t> sums = cumulative_sums(weights_);
-  SystematicWalk walk(sums, total_, uniform_, written_, written_.back() - 3);
-  std::vector<std::uint32_t> parents;
-  for (std::uint64_t turn = written_.back() + 1; parents.size() < sums.size();) {
-    std::uint32_t parent = 0;
+void Sisr::walk_last(ChildrenWalk walk) {
+  std::uint64_t turn = written_.back() + 1;
+  for (std::size_t k = 0; k < written_.size();) {
     const std::uint64_t now = walk.now();
-    if (!walk.cycle(now >= turn, parent)) continue;
-    parents.push_back(parent);
+    if (!walk.cycle(now >= turn)) continue;
+    ++k;
     turn = now + (loops_->pipelined ? 1 : kOtherTurn);
     pace_.free_from(now + 1);
   }
-  return parents;
 }
 
 Estimate Sisr::infer() {
@@ -101,14 +82,14 @@ Estimate Sisr::infer() {
   scale_weights(log_weights_, lanes_, f.weight_bits, weights_);
   total_ = sum_of(weights_);
   uniform_ = resample_words_.next() >> 8;
-  return {weighted_means(set_, weights_, total_, f.extra_bits), total_, weights_.back().scale, 0};
+  return {weighted_means(set_, weights_, total_, f), total_, weights_.back().scale, 0};
 }
 
 void Sisr::keep_time() {
   const Formats& f = arithmetic_.formats;
-  if (t_ == 1) std::iota(issued_.begin(), issued_.end(), pace_.begun() + 1);
-  const std::uint64_t model = 3 + f.propose_latency + f.weigh_latency;
-  for (std::size_t k = 0; k < issued_.size(); ++k) written_[k] = issued_[k] + model + 5;
+  if (t_ == 1) std::iota(issued_.begin(), issued_.end(), pace_.begun() + 2);
+  const std::uint64_t model = 2 + f.propose_latency + f.weigh_latency;
+  for (std::size_t k = 0; k < issued_.size(); ++k) written_[k] = issued_[k] + model + weight_cycles(lanes_);
   pace_.free_from(issued_.back() + model);
   pace_.sums_stand(written_.back() + 4 + row_cycles(lanes_), division_cycles(f));
 }
@@ -122,7 +103,7 @@ void Sisr::keep_loops_time() {
   const auto pass = [&](std::uint64_t turn) { begins += (n - 1) * every(turn) + turn; };
   std::uint64_t last = kOtherTurn;
   if (loops_->merged) {
-    last = f.propose_latency + f.weigh_latency + 10;
+    last = f.propose_latency + f.weigh_latency + 8;
   } else {
     pass(f.propose_latency + 5);
     pass(f.weigh_latency + 3);

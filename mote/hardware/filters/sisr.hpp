@@ -8,7 +8,6 @@
 #include "mote/hardware/filters/estimate.hpp"
 #include "mote/hardware/filters/offspring.hpp"
 #include "mote/hardware/filters/pace.hpp"
-#include "mote/hardware/filters/systematic.hpp"
 #include "mote/hardware/words.hpp"
 
 namespace mote::hardware {
@@ -40,9 +39,8 @@ class Sisr {
   std::uint64_t cycles() const { return pace_.left(); }
 
  private:
-  std::vector<std::uint32_t> walk_alone();
-  std::vector<std::uint32_t> walk_abreast();
-  std::vector<std::uint32_t> walk_last();
+  void walk_beside(ChildrenWalk walk);
+  void walk_last(ChildrenWalk walk);
   void choose_parents();
   Estimate infer();
   void keep_time();

@@ -27,15 +27,12 @@ void write(const std::filesystem::path& file, const Table& table) {
   if (!out) throw Refusal(ExitCode::kCannotWrite, {file.string(), "", "a file to write a table to", "an error", ""});
 }
 
-/// Shifts by a quantum of scale; seven quanta and more count as seven.
-unsigned limited(std::int64_t quanta) { return quanta > 7 ? 7 : static_cast<unsigned>(quanta); }
-
 std::int64_t scale_needed(std::int64_t log_weight) { return (log_weight >> (kLogFraction + 3)) + 1; }
 
 std::uint64_t weight_at(std::int64_t log_weight, std::int64_t scale, unsigned weight_bits) {
   const std::uint64_t power = exp2_table()[static_cast<std::size_t>(log_weight & 1023)];
   const auto fine = static_cast<unsigned>(7 - ((log_weight >> kLogFraction) & 7));
-  return ((power << (weight_bits - 16)) >> (kQuantum * limited(scale - scale_needed(log_weight)))) >> fine;
+  return lowered(power << (weight_bits - 16), quanta_between(scale_needed(log_weight), scale)) >> fine;
 }
 
 }  // namespace
@@ -75,7 +72,7 @@ void scale_weights(std::span<const std::int64_t> log_weights, std::size_t lanes,
     const std::int64_t risen = row == 0 ? needed : std::max(scale, needed);
     for (std::size_t lane = 0; lane < lanes; ++lane)
       weights[row + lane] = {weight_at(in[lane], risen, weight_bits), 0, risen};
-    if (row > 0) weights[row].rise = limited(risen - scale);
+    if (row > 0) weights[row].rise = quanta_between(scale, risen);
     scale = risen;
   }
 }

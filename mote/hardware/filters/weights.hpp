@@ -1,6 +1,7 @@
 #pragma once
 /// Weights and what chains compare by, golden twins of rtl/filters/mote_weight.sv and mote_log_uniform.sv.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -12,6 +13,8 @@ namespace mote::hardware {
 constexpr unsigned kLogFraction = 10;
 /// Octaves of a quantum of scale.
 constexpr unsigned kQuantum = 8;
+/// Quanta below the scale from which on a weight counts as nothing.
+constexpr unsigned kNothing = 3;
 
 /// round(2^15 2^(k / 1024)): the mantissas of weights.
 const std::array<std::uint16_t, 1024>& exp2_table();
@@ -30,7 +33,7 @@ std::int64_t log_drop(std::uint32_t word);
 /// A weight at the scale of the largest so far.
 struct ScaledWeight {
   std::uint64_t weight;  ///< 2^(lw - 8 scale) 2^weight_bits, cut
-  unsigned rise;         ///< quanta that sums so far go down by before it is added, at most 7
+  unsigned rise;         ///< quanta that sums so far go down by before it is added, at most kNothing: they begin anew
   std::int64_t scale;    ///< quanta of 8 octaves
 };
 
@@ -38,8 +41,24 @@ struct ScaledWeight {
 ///
 ///   scale <- max(scale, floor(lw / 8) + 1 of every lane)
 ///
+/// A weight kNothing quanta below the scale is 0.
+///
 /// shape   weights, log_weights: (n), n a multiple of lanes; the rise of a row is its first weight's
 void scale_weights(std::span<const std::int64_t> log_weights, std::size_t lanes, unsigned weight_bits,
                    std::span<ScaledWeight> weights);
+
+/// An unsigned or signed number as many quanta lower, cut; 0 from kNothing quanta on.
+template <class Number>
+constexpr Number lowered(Number number, unsigned quanta) {
+  return quanta >= kNothing ? 0 : number >> (kQuantum * quanta);
+}
+
+/// Quanta from a scale up to a later one, at most kNothing.
+constexpr unsigned quanta_between(std::int64_t before, std::int64_t after) {
+  return static_cast<unsigned>(std::min<std::int64_t>(after - before, kNothing));
+}
+
+/// Cycles from a row of log weights to its weights.
+constexpr std::uint64_t weight_cycles(std::size_t lanes) { return lanes > 1 ? 4 : 3; }
 
 }  // namespace mote::hardware

@@ -1,13 +1,12 @@
 #include "mote/hardware/machine/accelerator.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "mote/base/filled_in.hpp"
 #include "mote/base/refusal.hpp"
 #include "mote/hardware/filters/estimate.hpp"
-#include "mote/hardware/filters/systematic.hpp"
+#include "mote/hardware/filters/offspring.hpp"
 #include "mote/hardware/filters/weights.hpp"
 #include "mote/hardware/machine/templates.hpp"
 #include "mote/hardware/random.hpp"
@@ -245,25 +244,17 @@ Accelerator likelihood_accelerator(const ModelCircuit& model) {
   return made;
 }
 
-std::vector<std::uint32_t> resampled(const std::vector<std::int64_t>& log_weights, unsigned weight_bits,
+std::vector<std::uint32_t> resampled(const std::vector<std::int64_t>& log_weights, const Formats& formats,
                                      std::uint32_t uniform) {
   std::vector<ScaledWeight> weights(log_weights.size());
-  scale_weights(log_weights, 1, weight_bits, weights);
-  const std::uint64_t total = sum_of(weights);
-  const std::vector<std::uint64_t> sums = cumulative_sums(weights);
-  __extension__ using Wide = unsigned __int128;
-  auto threshold = static_cast<std::uint64_t>((Wide{total} * uniform) >> 24);
-  std::vector<std::uint32_t> parents;
-  for (std::uint32_t i = 0; parents.size() < sums.size(); threshold += total) {
-    while (sums[i] <= threshold) ++i;
-    parents.push_back(i);
-  }
-  return parents;
+  scale_weights(log_weights, 1, formats.weight_bits, weights);
+  return parents_of(Offspring{formats.weight_bits, formats.count_bits}.ends(weights, sum_of(weights), uniform));
 }
 
 Accelerator resampler_accelerator(std::uint32_t most, std::uint32_t n, std::uint64_t seed) {
-  const Formats f;
-  const int at = std::max(2, ceil_log2(most));
+  const int at = std::max(6, ceil_log2(most));
+  Formats f;
+  f.count_bits = static_cast<unsigned>(at);
   const Format parent{false, at, 0};
   Circuit exponential{"", {}, {}, {}, 0, false, {{"Exp2Table", 16, {exp2_table().begin(), exp2_table().end()}}}};
   Accelerator made{"mote_resampler_" + std::to_string(1 << at),
@@ -287,7 +278,7 @@ Accelerator resampler_accelerator(std::uint32_t most, std::uint32_t n, std::uint
     for (std::size_t begin = 0; begin + n <= in[0].size(); begin += n) {
       std::vector<std::int64_t> logs;
       for (std::size_t i = begin; i < begin + n; ++i) logs.push_back(in[0][i].fields[0]);
-      for (const std::uint32_t one : resampled(logs, f.weight_bits, words.next() >> 8)) out.push_back({{one}, false});
+      for (const std::uint32_t one : resampled(logs, f, words.next() >> 8)) out.push_back({{one}, false});
       out.back().last = true;
     }
     return out;

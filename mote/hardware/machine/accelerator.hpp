@@ -69,10 +69,10 @@ Accelerator likelihood_accelerator(const ModelCircuit& model);
 /// Systematic resampling of sets of n particles, at most `most`: log weights come in, parents go out.
 Accelerator resampler_accelerator(std::uint32_t most, std::uint32_t n, std::uint64_t seed);
 
-/// The parents of a set by systematic resampling:  the least i with  N (w_0 + ... + w_i) > (u + j) T.
+/// The parents of a set by systematic resampling, as mote_resample finds them.
 ///
-/// shape   log_weights: (N), octaves with 10 fraction bits; uniform: u 2^24
-std::vector<std::uint32_t> resampled(const std::vector<std::int64_t>& log_weights, unsigned weight_bits,
+/// shape   log_weights: (N), octaves with 10 fraction bits; uniform: v 2^24
+std::vector<std::uint32_t> resampled(const std::vector<std::int64_t>& log_weights, const Formats& formats,
                                      std::uint32_t uniform);
 
 }  // namespace mote::hardware

@@ -32,14 +32,17 @@ std::unique_ptr<Golden> golden_chains(const Arithmetic& arithmetic, std::uint64_
   return std::make_unique<GoldenOf<Imh>>(arithmetic, seed, 0, ImhLanes{capacity.lanes, Parents::kBanked});
 }
 
-std::unique_ptr<Golden> golden_cloud(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity& capacity) {
-  Arithmetic sized = arithmetic;
-  sized.formats.count_bits = capacity.at;
-  return std::make_unique<GoldenOf<Sisr>>(sized, seed, 0, capacity.lanes);
+Arithmetic counting(Arithmetic arithmetic, const Capacity& capacity) {
+  arithmetic.formats.count_bits = capacity.at;
+  return arithmetic;
 }
 
-std::unique_ptr<Golden> golden_loops(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity&) {
-  return std::make_unique<GoldenOf<Sisr>>(arithmetic, seed, 0, PlainLoops{});
+std::unique_ptr<Golden> golden_cloud(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity& capacity) {
+  return std::make_unique<GoldenOf<Sisr>>(counting(arithmetic, capacity), seed, 0, capacity.lanes);
+}
+
+std::unique_ptr<Golden> golden_loops(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity& capacity) {
+  return std::make_unique<GoldenOf<Sisr>>(counting(arithmetic, capacity), seed, 0, PlainLoops{});
 }
 
 const Register kParticles{"n", "N, particles, from 1", false, [](const RunRegisters& r) { return r.particles; }};
@@ -59,7 +62,7 @@ Capacity chain_capacity(const RunRegisters& r, unsigned lanes) {
 }
 
 Capacity cloud_capacity(const RunRegisters& r, unsigned lanes) {
-  const unsigned at = std::max(lanes > 1 ? 6U : 2U, bits_for(r.particles));
+  const unsigned at = std::max(6U, bits_for(r.particles));
   return {at, 1U << at, lanes};
 }
 
@@ -120,7 +123,7 @@ const std::vector<Architecture>& architectures() {
        {kParticles},
        1,
        false,
-       8,
+       5,
        cloud_parameters,
        cloud_range,
        cloud_capacity,
@@ -133,7 +136,7 @@ const std::vector<Architecture>& architectures() {
        {kParticles},
        8,
        false,
-       8,
+       6,
        cloud_parameters,
        cloud_range,
        cloud_capacity,
@@ -146,7 +149,7 @@ const std::vector<Architecture>& architectures() {
        {kParticles},
        1,
        false,
-       8,
+       6,
        no_parameters,
        cloud_range,
        cloud_capacity,

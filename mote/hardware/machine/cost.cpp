@@ -79,8 +79,7 @@ std::optional<double> yosys_sta(const Design& design) {
 template <class Design>
 Cost xc7_cost(const Design& design, const std::string& folder, const Activity& activity) {
   const std::string netlist = folder + "netlist.json";
-  const Area area = xc7_area(cells_after(
-      folder, "synth_xilinx -family xc7 -flatten -noiopad -top " + top_of(design) + "; write_json " + netlist));
+  const Area area = xc7_area(cells_after(folder, xc7_script(top_of(design)) + "; write_json " + netlist));
   const SlowestPath path = slowest_path(read_text(netlist), top_of(design));
   Cost cost{"XC7A100T-1 after synthesis; slowest path " + short_number(path.ns) + " ns of cells (" + path.cells + ")",
             area.lut, area.ff, area.dsp, area.bram18};

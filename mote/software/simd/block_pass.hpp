@@ -351,9 +351,12 @@ class BlockPass {
         l = V::load(likelihoods + j);
       } else {
         x = loaded(model_here, to, j);
-        // at least one row, and the first outside the loop: what it computes from parameters alone leaves both loops
-        l = model_here.template log_likelihood<V>(t, x, rows[0]);
-        for (std::size_t k = 1; k < rows.size(); ++k) l = l + model_here.template log_likelihood<V>(t, x, rows[k]);
+        // one call, which g++ then inlines whole, and at least one row: what it computes from parameters alone leaves
+        // both loops
+        std::size_t k = 0;
+        do {
+          l = l + model_here.template log_likelihood<V>(t, x, rows[k]);
+        } while (++k < rows.size());
       }
       if constexpr (kSource == Source::kProposal && !std::is_same_v<G, Prior>) {
         const State before = loaded(model_here, from, j);

@@ -7,6 +7,7 @@
 
 #include "mote/base/draws.hpp"
 #include "mote/base/numbers.hpp"
+#include "mote/software/share.hpp"
 
 namespace mote {
 namespace {
@@ -44,10 +45,39 @@ BlockSums::BlockSums(std::size_t particles, std::size_t dimensions, Team* team, 
       dimensions_(dimensions),
       team_(team),
       all_(team == nullptr ? particles : all),
-      weights_((particles + kBlock - 1) / kBlock),
-      components_(weights_.size() * dimensions) {}
+      weights_(blocks_of(particles)),
+      components_(weights_.size() * dimensions) {
+  if (!tells(particles_, all_)) return;
+  for (std::size_t r = 0; r <= team->ranks(); ++r) begins_.push_back(Cut(blocks_of(all_), team->ranks()).begin(r));
+  everyones_.emplace_back(all_, dimensions);
+}
+
+/// Completes everyones_ by the sums of all ranks.
+void BlockSums::tell() const {
+  BlockSums& all = everyones_.front();
+  const std::size_t triples = 1 + dimensions_;  // of a block
+  told_.resize(all.blocks() * triples);
+  Triple* told = told_.data() + begins_[team_->rank()] * triples;
+  for (std::size_t b = 0; b < blocks(); ++b) {
+    *told++ = std::bit_cast<Triple>(weights_[b]);
+    for (std::size_t d = 0; d < dimensions_; ++d) *told++ = std::bit_cast<Triple>(components_[b * dimensions_ + d]);
+  }
+  std::vector<std::size_t> begins = begins_;  // of numbers
+  for (std::size_t& begin : begins) begin *= triples * std::tuple_size_v<Triple>;
+  team_->complete(std::as_writable_bytes(std::span(told_)), begins);
+  told = told_.data();
+  for (std::size_t b = 0; b < all.blocks(); ++b) {
+    all.weights_[b] = std::bit_cast<WeightSums>(*told++);
+    for (std::size_t d = 0; d < dimensions_; ++d)
+      all.components_[b * dimensions_ + d] = std::bit_cast<ComponentSums>(*told++);
+  }
+}
 
 Totals BlockSums::totals() const {
+  if (!everyones_.empty()) {
+    tell();
+    return everyones_.front().totals();
+  }
   Totals totals{-kInfinity, 0, 0, all_, {}, {}};
   for (const WeightSums& block : weights_) totals.reference = std::max(totals.reference, block.shift);
   if (team_ != nullptr) team_->largest({&totals.reference, 1});
@@ -107,6 +137,7 @@ void BlockSums::complete_shifts() {
 }
 
 void BlockSums::moments(const Totals& totals, std::span<Moments> all) const {
+  if (!everyones_.empty()) return everyones_.front().moments(totals, all);
   add_aligned(totals, [](std::size_t, double w, const ComponentSums& c) { return c.first + c.centre * w; });
   for (std::size_t d = 0; d < dimensions_; ++d) all[d].mean = aligned_[d] / totals.weight;
   const auto about_the_mean = [&](std::size_t d, double w, const ComponentSums& c) {
@@ -117,7 +148,24 @@ void BlockSums::moments(const Totals& totals, std::span<Moments> all) const {
   for (std::size_t d = 0; d < dimensions_; ++d) all[d].sd = std::sqrt(std::max(0.0, aligned_[d] / totals.weight));
 }
 
+/// The part of this rank from the map of all blocks.
+void BlockSums::take_part(const ChildMap& all, ChildMap& map) const {
+  const auto part = [&](const auto& from, auto& to, std::size_t count) {
+    const auto begin = from.begin() + static_cast<std::ptrdiff_t>(begins_[team_->rank()]);
+    to.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
+  };
+  part(all.position, map.position, blocks() + 1);
+  part(all.first, map.first, blocks() + 1);
+  part(all.children_per_weight, map.children_per_weight, blocks());
+  map.born.clear();
+  for (const std::size_t begin : begins_) map.born.push_back(all.first[begin]);
+}
+
 void BlockSums::map_children(const Totals& totals, double u, ChildMap& map) const {
+  if (!everyones_.empty()) {
+    everyones_.front().map_children(totals, u, map_of_all_);
+    return take_part(map_of_all_, map);
+  }
   const std::size_t blocks = weights_.size();
   map.position.resize(blocks + 1);
   map.children_per_weight.resize(blocks);
@@ -129,6 +177,7 @@ void BlockSums::map_children(const Totals& totals, double u, ChildMap& map) cons
     map.children_per_weight[0] = per_weight;
     map.first[0] = 0;
     map.first[1] = static_cast<std::uint32_t>(all_);
+    map.born = map.first;
     return;
   }
   ExactSum before = team_ == nullptr ? ExactSum{} : team_->before(totals.mine);
@@ -142,6 +191,9 @@ void BlockSums::map_children(const Totals& totals, double u, ChildMap& map) cons
     map.children_per_weight[b] = per_weight * scale;
     before.add(scale * weights_[b].weight);
   }
+  if (team_ == nullptr) return;
+  map.born = team_->gather(map.first.front());
+  map.born.push_back(static_cast<std::uint32_t>(all_));
 }
 
 }  // namespace mote

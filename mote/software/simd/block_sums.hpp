@@ -1,6 +1,7 @@
 #pragma once
 /// What a step knows of its blocks of 1024 particles, and what follows from it for all of them.
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -22,8 +23,9 @@ struct ChildMap {
   std::vector<double> position;
   std::vector<std::uint32_t> first;
   std::vector<double> children_per_weight;  ///< by block: N over the total, in the block's own scale
+  std::vector<std::uint32_t> born;          ///< by rank: the first child of its particles; then N
 
-  void keep(Archive& archive) { archive(position, first, children_per_weight); }
+  void keep(Archive& archive) { archive(position, first, children_per_weight, born); }
 
   /// The block whose particles have child j.
   std::size_t block_of(std::uint32_t child) const;
@@ -56,9 +58,20 @@ struct ComponentSums {
 /// The sums of every block of a process, each written by whoever worked on the block. What they make up over all blocks
 /// of a team is summed exactly: the same bits for any number of threads and ranks.
 ///
-/// cost    O(N / 1024) for every total, and with a team a few reductions; memory (3 + 3 D) 8 bytes a block
+/// Where ranks share up to kMostTold blocks, each is told the sums of all of them, at once, and works out the rest by
+/// itself; of more blocks they add up what they need in turn.
+///
+/// cost    O(N / 1024) for every total, and with a team one message of all sums or seven reductions of a few numbers;
+///         memory (3 + 3 D) 8 bytes a block
 class BlockSums {
  public:
+  /// Blocks of all ranks whose sums are told: 48 kB of a filter of one state.
+  static constexpr std::size_t kMostTold = 1024;
+  /// Whether a rank with so many of all particles is told every rank's sums.
+  static bool tells(std::size_t particles, std::size_t all) {
+    return particles < all && all <= kMostTold * kBlock;
+  }
+
   /// For this process's `particles`; `team`, when not null, has `all` in all.
   BlockSums(std::size_t particles, std::size_t dimensions, Team* team = nullptr, std::size_t all = 0);
 
@@ -81,7 +94,7 @@ class BlockSums {
   Totals totals() const;
   /// Mean and standard deviation of every component.
   void moments(const Totals& totals, std::span<Moments> all) const;
-  /// Fills the map for u in (0, 1).
+  /// Fills the map for u in (0, 1); with a team after totals() of the same sums.
   void map_children(const Totals& totals, double u, ChildMap& map) const;
 
  private:
@@ -89,12 +102,19 @@ class BlockSums {
     if (team_ != nullptr) team_->add(sums);
   }
   bool alone_in_one_block() const { return all_ <= kBlock; }
+  using Triple = std::array<double, 3>;  // WeightSums or ComponentSums, as numbers
   template <class Term>
   void add_aligned(const Totals& totals, const Term& term) const;
+  void tell() const;
+  void take_part(const ChildMap& all, ChildMap& map) const;
 
   std::size_t particles_, dimensions_;
   Team* team_;
   std::size_t all_;
+  std::vector<std::size_t> begins_;           // of the ranks' blocks, where they are told
+  mutable std::vector<BlockSums> everyones_;  // then one: the sums of all blocks, without a team
+  mutable std::vector<Triple> told_;          // the same as numbers
+  mutable ChildMap map_of_all_;
   mutable std::vector<double> exponents_, aligned_;  // scratch of moments()
   mutable std::vector<ExactSum> exact_;
   std::vector<WeightSums> weights_;

@@ -260,7 +260,7 @@ void expect_the_same_on_teams(const M& model, const Plan& plan, const Recording&
 }
 
 // Uneven shares, the last block not whole; children that move by a few and, where one block has all the weight, by
-// many.
+// many; so many blocks that ranks are not told all sums.
 TEST(VectorImportanceFilter, TeamsChangeNoBit) {
   for (const double threshold : {1.0, 0.5, 0.0})
     for (const std::size_t particles : {8 * kBlock, 20 * kBlock + 77}) {
@@ -269,6 +269,9 @@ TEST(VectorImportanceFilter, TeamsChangeNoBit) {
       expect_the_same_on_teams<double>(Ungm<1>{}, plan, recording_of(Ungm<1>{}), {1, 2, 3, 5, 8});
       expect_the_same_on_teams<float>(Ungm<1>{}, plan, recording_of(Ungm<1>{}), {2, 5});
     }
+  const std::size_t many = (BlockSums::kMostTold + 1) * kBlock;
+  expect_the_same_on_teams<float>(Bearings{}, plan_of(many), recording_of(Bearings{}), {2, 3});
+  expect_the_same_on_teams<double>(Ungm<1>{}, plan_of(1000), recording_of(Ungm<1>{}), {1});
   Recording sharp = recording_of(Ungm<1>{{.r = 1e-7}});
   expect_the_same_on_teams<double>(Ungm<1>{{.r = 1e-7}}, plan_of(9 * kBlock), sharp, {2, 3, 9});
   expect_the_same_on_teams<double>(Bearings{}, plan_of(9 * kBlock + 1), recording_of(Bearings{}), {3, 10});

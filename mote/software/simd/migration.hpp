@@ -26,12 +26,10 @@ class Migration {
   void move(const ChildMap& map, const Particles<R>& x, const R* weights, SurvivorStream<R, kD>& stream,
             const ColumnPointers<R, kD>& desk) {
     const lanes::SubnormalsAreZero as_in_a_pass;  // or survivors could be others
-    born_ = team_->gather(map.first.front());
-    born_.push_back(static_cast<std::uint32_t>(home_.all));
     const std::size_t me = team_->rank();
     const auto share = [&](std::size_t parents, std::size_t owner) {  // children of one rank that live on another
-      const auto first = std::max<std::size_t>(born_[parents], owned_[owner].first);
-      return std::pair{first, std::max(first, std::min<std::size_t>(born_[parents + 1], owned_[owner].end()))};
+      const auto first = std::max<std::size_t>(map.born[parents], owned_[owner].first);
+      return std::pair{first, std::max(first, std::min<std::size_t>(map.born[parents + 1], owned_[owner].end()))};
     };
     std::tie(stay_first_, stay_end_) = share(me, me);
     std::size_t leaving = 0;
@@ -100,7 +98,6 @@ class Migration {
   Team* team_;
   Share home_;
   std::vector<Share> owned_;                   // by rank
-  std::vector<std::uint32_t> born_;            // by rank: its first child; then N
   std::size_t stay_first_ = 0, stay_end_ = 0;  // children of this rank that stay
   Particles<R> arrived_;                       // by place; those that stay are not among them
   std::vector<AlignedVector<R>> leaving_;

@@ -56,7 +56,8 @@ static inline uint32_t mote_next(mote_words *w) {
 
 // ---- weights: rtl/filters/mote_weight.sv, mote_log_uniform.sv
 
-enum { kLogFraction = 10, kQuantum = 8 };  // fraction bits of log weights; octaves of a step of scale
+// Fraction bits of log weights; octaves of a step of scale; steps below the scale from which on a weight is nothing.
+enum { kLogFraction = 10, kQuantum = 8, kNothing = 3 };
 
 typedef struct {
   uint64_t weight;
@@ -64,14 +65,19 @@ typedef struct {
   int rise;  // steps of scale that sums so far go down by before this weight is added
 } mote_weight;
 
-static inline int mote_limited(int64_t steps) { return steps > 7 ? 7 : (int)steps; }
+static inline int64_t mote_lowered(int64_t number, int steps) {
+  return steps >= kNothing ? 0 : number >> (kQuantum * steps);
+}
+static inline int mote_steps_between(int64_t before, int64_t after) {
+  return after - before > kNothing ? kNothing : (int)(after - before);
+}
 static inline int64_t mote_scale_needed(int64_t log_weight) { return (log_weight >> (kLogFraction + 3)) + 1; }
 
 static inline uint64_t mote_weight_at(int64_t log_weight, int64_t scale) {
   const uint64_t power = u_filter_exp2table[log_weight & 1023].low;
   const int fine = (int)(7 - ((log_weight >> kLogFraction) & 7));
-  const int down = kQuantum * mote_limited(scale - mote_scale_needed(log_weight));
-  return ((power << (WeightWidth - 16)) >> down) >> fine;
+  const int64_t whole = (int64_t)(power << (WeightWidth - 16));
+  return (uint64_t)mote_lowered(whole, mote_steps_between(mote_scale_needed(log_weight), scale)) >> fine;
 }
 
 // Rows of Lanes log weights to weights.
@@ -87,7 +93,7 @@ static inline void mote_scale_weights(const int64_t *log_weights, uint32_t count
       const mote_weight weight = {mote_weight_at(log_weights[row + lane], risen), risen, 0};
       weights[row + lane] = weight;
     }
-    if (row > 0) weights[row].rise = mote_limited(risen - scale);
+    if (row > 0) weights[row].rise = mote_steps_between(scale, risen);
     scale = risen;
   }
 }
@@ -103,20 +109,25 @@ typedef struct {
 
 static inline uint64_t mote_sum(const mote_weight *weights, uint32_t count) {
   uint64_t sum = 0;
-  for (uint32_t i = 0; i < count; ++i) sum = (sum >> (kQuantum * weights[i].rise)) + weights[i].weight;
+  for (uint32_t i = 0; i < count; ++i) sum = (uint64_t)mote_lowered((int64_t)sum, weights[i].rise) + weights[i].weight;
   return sum;
 }
 
-// The weighted mean of state d, cut towards zero; particles without weights count alike.
+// The weighted mean of state d, rounded down; particles without weights count alike. Products lose 8 bits, or all but one
+// of a narrow state's.
 static inline int64_t mote_mean(uint32_t (*states)[StateWords], const mote_weight *weights, uint32_t count, int d,
                                 uint64_t divisor) {
+  const int dropped = ValueWidth - 1 < 8 ? ValueWidth - 1 : 8;
+  const int64_t half = INT64_C(1) << (dropped - 1);
   int64_t total = 0;
   for (uint32_t i = 0; i < count; ++i) {
     const int64_t value = mote_take(states[i], d * ValueWidth, ValueWidth, 1);
     const int64_t weight = weights == 0 ? 1 << 16 : (int64_t)weights[i].weight;
-    total = (total >> (kQuantum * (weights == 0 ? 0 : weights[i].rise))) + value * weight;
+    total = mote_lowered(total, weights == 0 ? 0 : weights[i].rise) + ((value * weight + half) >> dropped);
   }
-  return (int64_t)(mote_lifted(total, Extra) / (mote_wide)divisor);
+  const mote_wide numerator = mote_lifted(total, dropped + Extra);
+  const mote_wide cut = numerator / (mote_wide)divisor;
+  return (int64_t)(cut - (cut * (mote_wide)divisor > numerator ? 1 : 0));
 }
 
 #endif

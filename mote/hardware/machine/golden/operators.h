@@ -135,7 +135,7 @@ static inline void mote_less(const mote_less_parameters *p, int64_t a, int64_t b
 // ---- y = s ? a : b
 
 typedef struct {
-  int Width;
+  int Width, Register;
 } mote_select_parameters;
 
 static inline void mote_select(const mote_select_parameters *p, int64_t s, int64_t a, int64_t b, int64_t *y) {
@@ -244,6 +244,28 @@ static inline void mote_piecewise(const mote_piecewise_parameters *p, int64_t x,
   const int64_t kept = (c0 + ((slope * delta) >> p->DeltaBits)) >> p->Guard;
   const int64_t exact = negative && (p->Fold == kOdd || p->Fold == kMirrored) ? -kept : kept;
   *y = mote_resized(exact, 0, p->YSigned, p->YWidth, 0, 0, 1);
+}
+
+// ---- a table of all values; who reads it knows whether they are signed
+
+typedef struct {
+  int AddressWidth, Width, OutRegister;
+  const mote_entry *File;
+} mote_rom_parameters;
+
+static inline void mote_rom(const mote_rom_parameters *p, int64_t address, int64_t *word) {
+  *word = (int64_t)p->File[mote_cut((uint64_t)address, 0, p->AddressWidth)].low;
+}
+
+typedef struct {
+  int AddressWidth, Width;
+  const mote_entry *File;
+} mote_rom_pair_parameters;
+
+static inline void mote_rom_pair(const mote_rom_pair_parameters *p, int64_t address0, int64_t address1, int64_t *word0,
+                                 int64_t *word1) {
+  *word0 = (int64_t)p->File[mote_cut((uint64_t)address0, 0, p->AddressWidth)].low;
+  *word1 = (int64_t)p->File[mote_cut((uint64_t)address1, 0, p->AddressWidth)].low;
 }
 
 #endif

@@ -1,7 +1,7 @@
 // The bootstrap filter with systematic resampling every step, in integers: rtl/filters/mote_sisr.sv, mote_sisr_plain.sv.
 //
-//   one lane    parent of child j: the least i with N (w_0 + ... + w_i) > (u + j) T
-//   lanes       children up to particle i: floor(C_i N / T + u), by a reciprocal of T (rtl/filters/mote_offspring.sv)
+//   children up to particle i: floor(C_i N / T + u), C_i / T as 17 bits, by a reciprocal of T; the last one's are N
+//   (rtl/filters/mote_offspring.sv)
 
 struct filter {
   registers now;
@@ -27,32 +27,23 @@ static void take_parent(struct filter *f, uint32_t child, uint32_t parent) {
   for (int w = 0; w < StateWords; ++w) f->parents[child][w] = f->set[parent][w];
 }
 
-// A weight at the last scale.
-static uint64_t lowered(const struct filter *f, uint32_t i) {
-  const int64_t by = f->weights[f->now.n - 1].scale - f->weights[i].scale;
-  return by > 7 ? 0 : f->weights[i].weight >> (kQuantum * by);
-}
-
-static void walk_alone(struct filter *f) {
-  const uint32_t n = f->now.n;
-  uint64_t threshold = (uint64_t)(((mote_wide)f->total * f->uniform) >> 24);
-  uint64_t sum = lowered(f, 0);
-  for (uint32_t child = 0, i = 0; child < n; ++child, threshold += f->total) {
-    while (i + 1 < n && sum * n <= threshold) sum += lowered(f, ++i);
-    take_parent(f, child, i);
-  }
-}
-
-static uint32_t reciprocal_entry(uint32_t i) { return (UINT32_C(1) << 26) / (256 + i) - 1; }
+static uint32_t reciprocal_entry(uint32_t i) { return (UINT32_C(1) << 25) / (128 + i) - 5; }
 
 // 2^35 / x to 17 bits, x of 18 bits with the top one set.
 static uint32_t reciprocal_of(uint32_t x) {
-  const uint32_t i = (x >> 9) & 255;
+  const uint32_t i = (x >> 10) & 127;
   const uint32_t entry = reciprocal_entry(i);
-  return entry - (((entry - reciprocal_entry(i + 1)) * (x & 511)) >> 9) - 1;
+  return ((entry << 10) - (entry - reciprocal_entry(i + 1)) * (x & 1023)) >> 10;
 }
 
-static void walk_abreast(struct filter *f) {
+// A weight at the last scale, whole bytes higher.
+static uint64_t moved(const struct filter *f, uint32_t i, int up) {
+  const int down = mote_steps_between(f->weights[i].scale, f->weights[f->now.n - 1].scale);
+  if (down >= kNothing) return 0;
+  return up >= down ? f->weights[i].weight << (8 * (up - down)) : f->weights[i].weight >> (8 * (down - up));
+}
+
+static void choose_parents(struct filter *f) {
   const uint32_t n = f->now.n;
   const int sum_bits = WeightWidth + At, drop = At - 6, fraction = 34 - drop;
   const int zeros = sum_bits - mote_bit_width(f->total);
@@ -60,8 +51,8 @@ static void walk_abreast(struct filter *f) {
       ((uint64_t)reciprocal_of((uint32_t)((f->total << zeros) >> (sum_bits - 18))) * n) >> drop;
   uint64_t sum = 0;
   for (uint32_t i = 0, child = 0; i < n; ++i) {
-    sum += lowered(f, i);
-    const uint64_t share = (sum << zeros) >> (sum_bits - 17);
+    sum += (moved(f, i, zeros / 8) << (zeros % 8)) >> At;
+    const uint64_t share = sum >> (WeightWidth - 17);
     const uint64_t place = share * factor + ((uint64_t)f->uniform << (fraction - 24));
     const uint32_t end = i + 1 == n ? n : (uint32_t)(place >> fraction);
     for (; child < end && child < n; ++child) take_parent(f, child, i);
@@ -71,8 +62,7 @@ static void walk_abreast(struct filter *f) {
 static mote_estimate filter_step(struct filter *f, const uint32_t *obs) {
   const uint32_t n = f->now.n;
   mote_estimate estimate = {{0}, 0, 0, 0};
-  if (f->t > 1 && Lanes == 1) walk_alone(f);
-  if (f->t > 1 && Lanes > 1) walk_abreast(f);
+  if (f->t > 1) choose_parents(f);
   for (uint32_t j = 0; j < n; ++j) {
     uint32_t words[DrawWords];
     for (int w = 0; w < DrawWords; ++w) words[w] = mote_next(&f->draw_words[j % Lanes][w]);

@@ -24,10 +24,12 @@ module mote_fifo #(
     if (!rst_ni) {in_q, out_q} <= '0;
     else if (clear_i) {in_q, out_q} <= '0;
     else begin
-      in_q  <= in_q + (At + 1)'(push_i);
-      out_q <= out_q + (At + 1)'(pop_i);
+      if (push_i) in_q <= in_q + (At + 1)'(1);
+      if (pop_i) out_q <= out_q + (At + 1)'(1);
+`ifndef SYNTHESIS
       assert (!(push_i && full_o));
       assert (!(pop_i && empty_o));
+`endif
     end
   end
   assign word_o  = words[out_q[At-1:0]];

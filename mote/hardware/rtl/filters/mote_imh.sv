@@ -16,8 +16,8 @@
 // range    Lanes a power of two, n_i and draws_i multiples of it; Lanes <= n_i <= Most; n_i <= draws_i;
 //          draws_i + Lanes burn_in_i <= 2^At; Most <= 2^At. Registers are read at start_i
 // timing   a step takes (N_b + Q/Lanes - 1) + K_p + K_w + 1 cycles, exactly (IMH-HW 5.3 with T_p = T_w = T_D = 1):
-//          K_p = 4 + ProposeLatency, K_w = WeighLatency + 1; the estimate follows 9 + Dims (ValueWidth + Extra + 1)
-//          cycles (one more with several lanes) behind the last decision. It waits for an observation, and for the
+//          K_p = 4 + ProposeLatency, K_w = WeighLatency + 1; the estimate follows 7 + Dims (ValueWidth + Extra + 1)
+//          cycles (1 + log2 Lanes more with several lanes) behind the last decision. It waits for an observation, and for the
 //          estimate of the step before the last to be taken. ProposeLatency + WeighLatency >= 6
 // golden   mote/hardware/filters/imh.hpp
 // source   IMH-HW figs. 2 and 3, (16) - (17)
@@ -203,13 +203,13 @@ module mote_imh #(
   assign kept_slot_o = slot_q;
 
   // ---- inference
-  logic weight_valid, weight_first, weighed_first_q;
-  logic [2:0] weight_rise;
+  logic weight_valid, weighed_first;
+  logic [1:0] weight_rise;
   logic [Lanes*WeightWidth-1:0] weight;
   logic [Lanes*StateWidth-1:0] inferred_state;
-  mote_delay #(.Width(Lanes * StateWidth), .Depth(4)) u_inferred_state (
+  mote_delay #(.Width(Lanes * StateWidth), .Depth(Lanes > 1 ? 3 : 2)) u_inferred_state (
       .clk_i, .d_i(decided_state), .d_o(inferred_state));
-  logic signed [ScaleWidth-1:0] scale, unused_scale;
+  logic signed [ScaleWidth-1:0] scale;
   count_t weighed_q, summed_q;
   logic summed_last;
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -221,19 +221,17 @@ module mote_imh #(
       if (weight_valid) summed_q <= summed_last ? '0 : summed_q + (At + 1)'(1);
     end
   end
-  assign weighed_first_q = weighed_q == '0;
+  assign weighed_first = weighed_q == '0;
   assign summed_last = weight_valid && summed_q + (At + 1)'(1) == total_q;
   mote_weight #(.Lanes(Lanes), .LogWidth(LogWidth), .Width(WeightWidth), .Table(Exp2Table)) u_weight (
       .clk_i, .rst_ni,
       .valid_i(weighed_valid),
-      .first_i(weighed_first_q),
+      .first_i(weighed_first),
       .log_weight_i(weigh_log_i),
       .valid_o(weight_valid),
-      .first_o(weight_first),
       .rise_o(weight_rise),
       .weight_o(weight),
-      .scale_o(scale),
-      .scale_early_o(unused_scale));
+      .scale_o(scale));
 
   logic [15:0] steps_left_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -248,14 +246,12 @@ module mote_imh #(
   ) u_estimate (
       .clk_i, .rst_ni,
       .weight_valid_i(weight_valid),
-      .weight_first_i(weight_first),
       .weight_rise_i(weight_rise),
       .weight_i(weight),
       .scale_i(scale),
       .sum_so_far_o(unused_sum),
       .value_valid_i(equal_q ? kept_q : weight_valid),
-      .value_first_i(equal_q ? kept_first_q : weight_first),
-      .value_rise_i(equal_q ? 3'd0 : weight_rise),
+      .value_rise_i(equal_q ? {2{kept_first_q}} : weight_rise),
       .value_weight_i(equal_q ? {Lanes{WeightWidth'(1) << 16}} : weight),
       .value_i(equal_q ? current : inferred_state),
       .done_i(summed_last),

@@ -1,20 +1,21 @@
-// Systematic resampling for several lanes: how many children the particles so far have, a row of 2 Lanes particles a cycle.
+// Systematic resampling: how many children the particles so far have, a row of 2 Lanes particles a cycle.
 //
 //   J_i = floor(C_i q + v),  C_i = w_0 + ... + w_i as 17 bits of T = sum w,  q = N / T,  v ~ U[0, 1) of 24 bits
 //   particle i has the children J_(i-1) .. J_i - 1; the last one's J is N
 //
-// Weights are stored with the scale that they were made at and lowered to the last one's when they are read. N / T is a
-// factor (mote_reciprocal), never too large; so no J is above N, and the last particle gains below N 2^-14 children. Rows
-// without children are left out.
+// Weights are stored with the scale that they were made at and lowered to the last one's when they are read, as Width bits
+// of T. N / T is a factor (mote_reciprocal), never too large; so no J is above N, and the last particle gains below N 2^-13
+// children. Rows without children are left out; those after the last child are not read.
 //
 // formats  weights: unsigned; ends_o: the J of a row's particles; row_o: the row's number
-// range    n_i counts slots of Lanes particles, N = Lanes n_i; Lanes 2, 4 or 8; At >= 6
-// timing   the first row is there 11 + log2 Lanes cycles after the last weight is written, initiation interval 1 until the queue of Rows is full. total_i comes with total_valid_i 2 cycles after the
-//          last weight
+// range    n_i counts slots of Lanes particles, N = Lanes n_i; Lanes 1, 2, 4 or 8; At >= 6; T >= 2^(Width - 8)
+// timing   the first row is there 11 + log2 Lanes cycles (with 8 lanes one more) after the last weight is written, initiation
+//          interval 1 until the queue of Rows is full. total_i comes with total_valid_i 1 + log2 Lanes cycles after the last
+//          weight
 // golden   mote/hardware/filters/offspring.hpp
 // source   Kitagawa 1996 (systematic resampling)
 module mote_offspring #(
-    parameter int unsigned Lanes      = 4,
+    parameter int unsigned Lanes      = 1,
     parameter int unsigned At         = 10,
     parameter int unsigned Width      = 24,
     parameter int unsigned ScaleWidth = 12,
@@ -29,6 +30,7 @@ module mote_offspring #(
     input  logic        [At:0]           n_i,
     // weights, slot after slot
     input  logic                         write_i,
+    input  logic                         last_i,
     input  logic [Lanes*Width-1:0]       weight_i,
     input  logic signed [ScaleWidth-1:0] scale_i,
     // the end of a step
@@ -43,6 +45,7 @@ module mote_offspring #(
 );
   localparam int unsigned Levels = $clog2(Many);
   localparam int unsigned Latency = 8 + Levels;  // from reading a row to its ends
+  localparam int unsigned Later = Lanes > 4 ? 1 : 0;  // cycles that reading waits for the total's leading zeros
   localparam int unsigned WordWidth = Width + ScaleWidth;
   localparam int unsigned Drop = At - 6;         // bits of N times the reciprocal that are left out
   localparam int unsigned Frac = 34 - Drop;      // fraction bits of C q
@@ -52,15 +55,14 @@ module mote_offspring #(
 
   // ---- memory of weights, even and odd slots, two banks
   logic [At:0] written_q;
-  logic bank_q, last_write;
-  assign last_write = write_i && written_q + (At + 1)'(1) == n_i;
+  logic bank_q, begins;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       written_q <= '0;
       bank_q <= 1'b0;
     end else begin
-      if (write_i) written_q <= last_write ? '0 : written_q + (At + 1)'(1);
-      if (last_write) bank_q <= ~bank_q;
+      if (write_i) written_q <= last_i ? '0 : written_q + (At + 1)'(1);
+      if (last_i) bank_q <= ~bank_q;
     end
   end
   logic signed [ScaleWidth-1:0] last_scale_q;
@@ -78,8 +80,9 @@ module mote_offspring #(
     end
   end
 
-  // ---- reading, from the cycle after the last weight on, as long as the queue has room
-  logic reads_q, reads, last_row, left_out, push, arrives;
+  // ---- reading, as long as the queue has room
+  mote_valid #(.Depth(Later)) u_begins (.clk_i, .rst_ni, .valid_i(last_i), .valid_o(begins));
+  logic reads_q, reads, last_row, left_out, left_out_q, popped_q, push, arrives, all_q;
   logic [RoomWidth-1:0] room_q;
   assign last_row = row_q == RowWidth'((n_i - (At + 1)'(1)) >> 1);
   assign reads = reads_q && room_q != '0;
@@ -91,13 +94,17 @@ module mote_offspring #(
       reads_q <= 1'b0;
       room_q  <= RoomWidth'(Rows);
     end else begin
-      if (last_write) reads_q <= 1'b1;
-      else if (reads && last_row) reads_q <= 1'b0;
-      room_q <= room_q - RoomWidth'(reads) + RoomWidth'(pop_i) + RoomWidth'(left_out);
+      if (begins) reads_q <= 1'b1;
+      else if (all_q || reads && last_row) reads_q <= 1'b0;
+      room_q <= room_q - RoomWidth'(reads) + RoomWidth'(popped_q) + RoomWidth'(left_out_q);
     end
   end
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) {popped_q, left_out_q, all_q} <= '0;
+    else {popped_q, left_out_q, all_q} <= {pop_i && !drop_i, left_out && !drop_i, push && row_end == all_n};
+  end
   always_ff @(posedge clk_i) begin
-    if (last_write) begin
+    if (last_i) begin
       row_q <= '0;
       last_scale_q <= scale_i;
     end else if (reads) row_q <= row_q + RowWidth'(1);
@@ -108,13 +115,13 @@ module mote_offspring #(
   logic [ZerosWidth-1:0] zeros;
   logic [17:0] reciprocal;
   logic [At+18:0] product_n_q;
-  logic [23:0] factor_q, uniform_q;
+  (* keep *) logic [23:0] factor_q;  // in flip-flops of its own: the product before it keeps its register
+  logic [23:0] uniform_q;
   logic [At:0] all_n;
   assign all_n = n_i << $clog2(Lanes);
-  logic [SumWidth-1:0] total_q;
-  always_ff @(posedge clk_i) if (total_valid_i) {total_q, uniform_q} <= {total_i, uniform_i};
-  mote_reciprocal #(.Width(SumWidth)) u_reciprocal (
-      .clk_i, .divisor_i(total_valid_i ? total_i : total_q), .zeros_o(zeros), .reciprocal_o(reciprocal));
+  always_ff @(posedge clk_i) if (total_valid_i) uniform_q <= uniform_i;
+  mote_reciprocal #(.Width(SumWidth), .MostZeros(At + 7)) u_reciprocal (
+      .clk_i, .load_i(total_valid_i), .divisor_i(total_i), .zeros_o(zeros), .reciprocal_o(reciprocal));
   always_ff @(posedge clk_i) begin
     product_n_q <= (At + 19)'(reciprocal) * (At + 19)'(all_n);
     factor_q    <= product_n_q[Drop+:24];
@@ -122,65 +129,85 @@ module mote_offspring #(
   logic unused_product;
   assign unused_product = ^product_n_q;
 
-  // ---- cumulative sums: lowered to the last scale, summed in the row, added to those before
-  function automatic logic [Width-1:0] lowered(input logic [WordWidth-1:0] stored,
-                                               input logic signed [ScaleWidth-1:0] last);
-    logic [ScaleWidth-1:0] by;
-    by = last - $signed(stored[WordWidth-1:Width]);
-    lowered = by > ScaleWidth'(7) ? '0 : stored[Width-1:0] >> {by[2:0], 3'b0};
+  // ---- weights as parts of the total: lowered to the last scale, raised by the total's leading zeros
+  function automatic logic [1:0] limited(input logic [ScaleWidth-1:0] difference);
+    limited = difference > ScaleWidth'(3) ? 2'd3 : difference[1:0];
   endfunction
-  logic [(Levels+1)*Many*SumWidth-1:0] sums_q;  // level after level
+  // By whole bytes: one multiplexer of the three bytes of a weight that may come to a place.
+  function automatic logic [SumWidth-1:0] moved(input logic [Width-1:0] weight, input logic [1:0] down,
+                                                input logic [ZerosWidth-4:0] up);
+    logic [SumWidth+15:0] wide;
+    wide = '0;
+    for (int by = 0; by < 3; by++) begin
+      for (int bytes = 0; bytes <= (At + 7) / 8; bytes++) begin
+        if (down == 2'(by) && up == (ZerosWidth - 3)'(bytes)) wide = (SumWidth + 16)'(weight) << (8 * (bytes + 2 - by));
+      end
+    end
+    moved = SumWidth'(wide >> 16);
+  endfunction
+
+  // ---- cumulative sums: in the row, added to those before
+  logic [(Levels+1)*Many*Width-1:0] sums_q;  // level after level
   logic [Many*42-1:0] place_q;
-  logic [SumWidth-1:0] base_q;
+  logic [Width-1:0] base_q;
   logic sums;
-  mote_valid #(.Depth(3 + Levels)) u_sums (.clk_i, .rst_ni, .valid_i(reads), .valid_o(sums));
+  mote_valid #(.Depth(5 + Levels)) u_sums (.clk_i, .rst_ni, .valid_i(reads), .valid_o(sums));
   for (genvar i = 0; i < Many; i++) begin : gen_particle
-    logic [SumWidth-1:0] cum_q, coarse_q;
-    logic [16:0] share_q;
+    logic [1:0] below_q;
+    logic [Width-1:0] weight_q, cum_q;
+    logic [SumWidth-1:0] coarse_q;
     logic [40:0] product_q;
     always_ff @(posedge clk_i) begin
-      sums_q[i*SumWidth+:SumWidth] <= SumWidth'(lowered(word[i*WordWidth+:WordWidth], last_scale_q));
-      cum_q     <= base_q + sums_q[(Levels*Many+i)*SumWidth+:SumWidth];
-      coarse_q  <= cum_q << {zeros[ZerosWidth-1:3], 3'b0};
-      share_q   <= 17'((coarse_q << zeros[2:0]) >> (SumWidth - 17));
-      product_q <= 41'(share_q) * 41'(factor_q);
+      below_q   <= limited(last_scale_q - word[i*WordWidth+Width+:ScaleWidth]);
+      weight_q  <= word[i*WordWidth+:Width];
+      coarse_q  <= moved(weight_q, below_q, zeros[ZerosWidth-1:3]);
+      sums_q[i*Width+:Width] <= Width'((coarse_q << zeros[2:0]) >> At);
+      cum_q     <= base_q + sums_q[(Levels*Many+i)*Width+:Width];
+      product_q <= 41'(cum_q[Width-1-:17]) * 41'(factor_q);
       place_q[i*42+:42] <= 42'(product_q) + 42'({uniform_q, {(Frac - 24) {1'b0}}});
     end
+    logic unused_bits;
+    assign unused_bits = ^cum_q[Width-18:0];
     for (genvar k = 0; k < Levels; k++) begin : gen_level
-      localparam int unsigned Here = (k * Many + i) * SumWidth;
+      localparam int unsigned Here = (k * Many + i) * Width;
       if (i >= (1 << k)) begin : gen_sum
         always_ff @(posedge clk_i)
-          sums_q[Here+Many*SumWidth+:SumWidth] <= sums_q[Here+:SumWidth] + sums_q[Here-(SumWidth<<k)+:SumWidth];
+          sums_q[Here+Many*Width+:Width] <= sums_q[Here+:Width] + sums_q[Here-(Width<<k)+:Width];
       end else begin : gen_copy
-        always_ff @(posedge clk_i) sums_q[Here+Many*SumWidth+:SumWidth] <= sums_q[Here+:SumWidth];
+        always_ff @(posedge clk_i) sums_q[Here+Many*Width+:Width] <= sums_q[Here+:Width];
       end
     end
   end
   always_ff @(posedge clk_i) begin
-    if (last_write) base_q <= '0;
-    else if (sums) base_q <= base_q + sums_q[(Levels+1)*Many*SumWidth-1-:SumWidth];
+    if (last_i) base_q <= '0;
+    else if (sums) base_q <= base_q + sums_q[(Levels+1)*Many*Width-1-:Width];
   end
 
   // ---- ends; rows without children are left out
-  logic last_ends, lone_ends;
+  logic last_ends, lone_ends, last_before, lone_before;
   row_t row_ends;
   count_t before_q;
   logic [Many*(At+1)-1:0] ends;
   count_t row_end;
   assign row_end = ends[Many*(At+1)-1-:At+1];
   mote_valid #(.Depth(Latency)) u_arrives (.clk_i, .rst_ni, .valid_i(reads), .valid_o(arrives));
-  mote_delay #(.Width(RowWidth + 2), .Depth(Latency)) u_last (
-      .clk_i, .d_i({last_row, last_row && n_i[0], row_q}), .d_o({last_ends, lone_ends, row_ends}));
+  mote_delay #(.Width(RowWidth), .Depth(Latency)) u_row (.clk_i, .d_i(row_q), .d_o(row_ends));
+  mote_delay #(.Width(2), .Depth(Latency - 1)) u_last (
+      .clk_i, .d_i({last_row, last_row && n_i[0]}), .d_o({last_before, lone_before}));
+  always_ff @(posedge clk_i or negedge rst_ni) begin  // a reset keeps them out of a slow shift register
+    if (!rst_ni) {last_ends, lone_ends} <= '0;
+    else {last_ends, lone_ends} <= {last_before, lone_before};
+  end
   always_comb begin
     for (int i = 0; i < Many; i++) begin
       ends[i*(At+1)+:At+1] = place_q[i*42+Frac+:At+1];
-      if (last_ends && (i == Many - 1 || lone_ends && i >= Lanes - 1)) ends[i*(At+1)+:At+1] = all_n;
+      if (last_ends && (i == Many - 1 || lone_ends && i + 1 >= Lanes)) ends[i*(At+1)+:At+1] = all_n;
     end
   end
   assign left_out = arrives && row_end == before_q;
   assign push = arrives && row_end != before_q;
   always_ff @(posedge clk_i) begin
-    if (last_write) before_q <= '0;
+    if (last_i) before_q <= '0;
     else if (arrives) before_q <= row_end;
   end
   logic no_row, unused_full;

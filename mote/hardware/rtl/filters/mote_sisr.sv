@@ -4,16 +4,15 @@
 //   x' ~ p(. | x_a(j)),  lw = log2 p(y | x'),  a(j) by systematic resampling, every step
 //   mean = sum w x' / sum w, before resampling
 //
-// One lane resamples by mote_systematic, several by mote_offspring and mote_children; lane l has the children Lanes k + l.
+// Lane l has the children Lanes k + l (mote_resample).
 // The arithmetic of a model is outside, as for mote_imh. t_o and obs_o stand from 3 cycles before the first state of a
 // step reaches propose until its last leaves weigh. At t = 1 the parent's state is undefined.
 //
 // formats  states: Dims signed words of ValueWidth bits; log weights: signed, octaves, 10 fraction bits
-// range    Lanes 1, 2, 4 or 8; n_i a multiple of it, at most 2^At; At >= 2, with several lanes At >= 6 and
-//          n_i >= Lanes. Registers are read at start_i
-// timing   a particle a cycle and lane, as long as there are parents; a step's first are there 15 cycles (with several
-//          lanes 19 + log2 Lanes) after its last state left weigh, or when its first row with children is reached. The
-//          golden model counts cycles exactly
+// range    Lanes 1, 2, 4 or 8; n_i a multiple of it, from Lanes to 2^At; At >= 6. Registers are read at start_i
+// timing   a particle a cycle and lane, as long as there are parents; a step's first are there 16 cycles (with several lanes
+//          17 + log2 Lanes, with 8 one more) after its last state left weigh, or when its first row with children is
+//          reached. The golden model counts cycles exactly
 // golden   mote/hardware/filters/sisr.hpp
 // source   FPGA (merged loops, dataflow); Kitagawa 1996
 module mote_sisr #(
@@ -72,45 +71,48 @@ module mote_sisr #(
 );
   typedef logic [At:0] count_t;
 
+  localparam int unsigned WeightLatency = Lanes > 1 ? 4 : 3;
+
   // ---- steps: each begins when the model has weighed the one before; of a lane
   localparam int unsigned LaneBits = $clog2(Lanes);
   localparam int unsigned LaneWidth = Lanes > 1 ? LaneBits : 1;
-  count_t n_q, issued_q, weighed_q, per_lane_n;
-  logic starts, begins, weighed_valid, weighed_last, issues, first_q, parent_valid, unused_none_left;
+  count_t n_q, issue_left_q, weigh_left_q;
+  logic starts, begins, begun_q, issues_q, issues, issues_last, first_q, parent_valid, unused_none_left;
+  logic weighed_valid, weighed_last, weighed_first_q;
   logic [Lanes*At-1:0] parent;
   mote_steps #(.ObsWidth(ObsWidth)) u_steps (
       .clk_i, .rst_ni, .start_i, .steps_i, .busy_o, .starts_o(starts),
       .obs_valid_i, .obs_ready_o, .obs_i,
       .free_i(weighed_last), .begins_o(begins), .none_left_o(unused_none_left), .t_o, .obs_o,
       .est_taken_i(est_valid_o && est_ready_i), .est_last_i(est_last_o));
-  assign per_lane_n = n_i >> LaneBits;
-  assign issues = issued_q != n_q && (first_q || parent_valid);
+  assign issues = issues_q && (first_q || parent_valid);
+  assign issues_last = issues && issue_left_q == (At + 1)'(1);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      n_q      <= '0;
-      issued_q <= '0;
+      begun_q  <= 1'b0;
+      issues_q <= 1'b0;
       first_q  <= 1'b0;
-    end else if (starts) begin
-      n_q      <= per_lane_n;
-      issued_q <= per_lane_n;
-      first_q  <= 1'b1;
-    end else if (begins) begin
-      first_q  <= t_o == '0;
-      issued_q <= '0;
-    end else if (issues) begin
-      issued_q <= issued_q + (At + 1)'(1);
+    end else begin
+      begun_q  <= begins;
+      issues_q <= begun_q || issues_q && !issues_last;
+      if (begins) first_q <= t_o == '0;
     end
+  end
+  always_ff @(posedge clk_i) begin
+    if (starts) n_q <= n_i >> LaneBits;
+    if (begun_q) issue_left_q <= n_q;
+    else if (issues) issue_left_q <= issue_left_q - (At + 1)'(1);
   end
 
   // ---- particles
   logic [SlotWidth-1:0] slot_q;
   logic bank_q;
-  logic [Lanes*(SlotWidth+1)-1:0] parent_slot_q;
-  logic [Lanes*LaneWidth-1:0] parent_lane_q;
-  always_ff @(posedge clk_i) begin
+  logic [Lanes*(SlotWidth+1)-1:0] parent_slot;
+  logic [Lanes*LaneWidth-1:0] parent_lane;
+  always_comb begin
     for (int l = 0; l < Lanes; l++) begin
-      parent_slot_q[l*(SlotWidth+1)+:SlotWidth+1] <= {~bank_q, parent[(l+1)*At-1-:SlotWidth]};
-      parent_lane_q[l*LaneWidth+:LaneWidth] <= Lanes > 1 ? parent[l*At+:LaneWidth] : '0;
+      parent_slot[l*(SlotWidth+1)+:SlotWidth+1] = {~bank_q, parent[(l+1)*At-1-:SlotWidth]};
+      parent_lane[l*LaneWidth+:LaneWidth] = Lanes > 1 ? parent[l*At+:LaneWidth] : '0;
     end
   end
   mote_set #(.Lanes(Lanes), .Width(StateWidth), .SlotWidth(SlotWidth + 1)) u_set (
@@ -118,12 +120,12 @@ module mote_sisr #(
       .write_i(kept_valid_o),
       .write_slot_i({bank_q, slot_q}),
       .write_state_i(kept_state_o),
-      .read_slot_i(parent_slot_q),
-      .read_lane_i(parent_lane_q),
+      .read_slot_i(parent_slot),
+      .read_lane_i(parent_lane),
       .read_state_o(propose_state_o));
 
   // ---- the model's arithmetic
-  mote_valid #(.Depth(3)) u_propose_valid (.clk_i, .rst_ni, .valid_i(issues), .valid_o(propose_valid_o));
+  mote_valid #(.Depth(2)) u_propose_valid (.clk_i, .rst_ni, .valid_i(issues), .valid_o(propose_valid_o));
   for (genvar l = 0; l < Lanes; l++) begin : gen_lane
     for (genvar w = 0; w < DrawWords; w++) begin : gen_words
       mote_words #(.Seed(Seed), .Stream(Stream + 1 + DrawWords * l + w)) u_words (
@@ -135,32 +137,32 @@ module mote_sisr #(
   assign weigh_state_o = propose_state_i;
   mote_valid #(.Depth(WeighLatency)) u_weighed_valid (
       .clk_i, .rst_ni, .valid_i(weigh_valid_o), .valid_o(weighed_valid));
-  mote_delay #(.Width(Lanes * StateWidth), .Depth(WeighLatency + 5)) u_state (
+  mote_delay #(.Width(Lanes * StateWidth), .Depth(WeighLatency + WeightLatency)) u_state (
       .clk_i, .d_i(propose_state_i), .d_o(kept_state_o));
-  assign weighed_last = weighed_valid && weighed_q + (At + 1)'(1) == n_q;
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) weighed_q <= '0;
-    else if (weighed_valid) weighed_q <= weighed_last ? '0 : weighed_q + (At + 1)'(1);
+  assign weighed_last = weighed_valid && weigh_left_q == (At + 1)'(1);
+  always_ff @(posedge clk_i) begin
+    if (begins) weigh_left_q <= n_q;
+    else if (weighed_valid) weigh_left_q <= weigh_left_q - (At + 1)'(1);
+    if (begins) weighed_first_q <= 1'b1;
+    else if (weighed_valid) weighed_first_q <= 1'b0;
   end
 
   // ---- weights
-  logic weight_first, kept_last;
-  logic [2:0] weight_rise;
+  logic kept_last;
+  logic [1:0] weight_rise;
   logic [Lanes*WeightWidth-1:0] weight;
-  logic signed [ScaleWidth-1:0] scale, scale_early;
+  logic signed [ScaleWidth-1:0] scale;
   mote_weight #(.Lanes(Lanes), .LogWidth(LogWidth), .Width(WeightWidth), .Table(Exp2Table)) u_weight (
       .clk_i, .rst_ni,
       .valid_i(weighed_valid),
-      .first_i(weighed_q == '0),
+      .first_i(weighed_first_q),
       .log_weight_i(weigh_log_i),
       .valid_o(kept_valid_o),
-      .first_o(weight_first),
       .rise_o(weight_rise),
       .weight_o(weight),
-      .scale_o(scale),
-      .scale_early_o(scale_early));
+      .scale_o(scale));
   assign kept_slot_o = slot_q;
-  assign kept_last = kept_valid_o && (At + 1)'(slot_q) + (At + 1)'(1) == n_q;
+  mote_valid #(.Depth(WeightLatency)) u_kept_last (.clk_i, .rst_ni, .valid_i(weighed_last), .valid_o(kept_last));
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       slot_q <= '0;
@@ -172,71 +174,21 @@ module mote_sisr #(
   end
 
   // ---- resampling
-  logic total_valid;
   logic [SumWidth-1:0] total;
-  logic [31:0] resample_word;
-  logic unused_word;
-  assign unused_word = ^resample_word[7:0];
-  mote_valid #(.Depth(Lanes > 1 ? 2 : 1)) u_total_valid (.clk_i, .rst_ni, .valid_i(kept_last), .valid_o(total_valid));
-  mote_words #(.Seed(Seed), .Stream(Stream)) u_resample_words (
-      .clk_i, .rst_ni, .advance_i(total_valid), .word_o(resample_word));
-  logic takes;
-  assign takes = issued_q != n_q && !first_q;
-  if (Lanes == 1) begin : gen_walk
-    logic scale_known;
-    mote_valid #(.Depth(2)) u_scale_known (.clk_i, .rst_ni, .valid_i(weighed_last), .valid_o(scale_known));
-    mote_systematic #(.At(At), .Width(WeightWidth), .ScaleWidth(ScaleWidth)) u_systematic (
-        .clk_i, .rst_ni,
-        .drop_i(starts),
-        .n_i(n_q),
-        .write_i(kept_valid_o),
-        .weight_i(weight),
-        .scale_i(scale),
-        .scale_known_i(scale_known),
-        .last_scale_i(scale_early),
-        .total_valid_i(total_valid),
-        .total_i(total),
-        .uniform_i(resample_word[31:8]),
-        .valid_o(parent_valid),
-        .ready_i(takes),
-        .parent_o(parent));
-  end else begin : gen_rows
-    localparam int unsigned RowWidth = SlotWidth - 1;
-    logic row_valid, row_pop, unused_scale;
-    logic drops, drops_q;  // rows under way when a run ends come in until the next one's first weight
-    assign drops = starts || drops_q && !kept_valid_o;
-    always_ff @(posedge clk_i or negedge rst_ni) begin
-      if (!rst_ni) drops_q <= 1'b0;
-      else drops_q <= drops;
-    end
-    logic [RowWidth-1:0] row;
-    logic [2*Lanes*(At+1)-1:0] ends;
-    assign unused_scale = ^scale_early;
-    mote_offspring #(.Lanes(Lanes), .At(At), .Width(WeightWidth), .ScaleWidth(ScaleWidth)) u_offspring (
-        .clk_i, .rst_ni,
-        .drop_i(drops),
-        .n_i(n_q),
-        .write_i(kept_valid_o),
-        .weight_i(weight),
-        .scale_i(scale),
-        .total_valid_i(total_valid),
-        .total_i(total),
-        .uniform_i(resample_word[31:8]),
-        .valid_o(row_valid),
-        .pop_i(row_pop),
-        .row_o(row),
-        .ends_o(ends));
-    mote_children #(.Lanes(Lanes), .At(At)) u_children (
-        .clk_i, .rst_ni,
-        .clear_i(drops || kept_last),
-        .row_valid_i(row_valid),
-        .row_pop_o(row_pop),
-        .row_i(row),
-        .ends_i(ends),
-        .valid_o(parent_valid),
-        .ready_i(takes),
-        .parent_o(parent));
-  end
+  mote_resample #(
+      .Lanes(Lanes), .At(At), .Width(WeightWidth), .ScaleWidth(ScaleWidth), .Seed(Seed), .Stream(Stream)
+  ) u_resample (
+      .clk_i, .rst_ni,
+      .starts_i(starts),
+      .n_i(n_q),
+      .write_i(kept_valid_o),
+      .last_i(kept_last),
+      .weight_i(weight),
+      .scale_i(scale),
+      .total_i(total),
+      .valid_o(parent_valid),
+      .ready_i(issues_q && !first_q),
+      .parent_o(parent));
 
   // ---- estimates
   logic [15:0] estimates_left_q;
@@ -252,13 +204,11 @@ module mote_sisr #(
   ) u_estimate (
       .clk_i, .rst_ni,
       .weight_valid_i(kept_valid_o),
-      .weight_first_i(weight_first),
       .weight_rise_i(weight_rise),
       .weight_i(weight),
       .scale_i(scale),
       .sum_so_far_o(total),
       .value_valid_i(kept_valid_o),
-      .value_first_i(weight_first),
       .value_rise_i(weight_rise),
       .value_weight_i(weight),
       .value_i(kept_state_o),

@@ -2,13 +2,13 @@
 // estimates and sets, bit for bit.
 //
 //   propagate  x'_j ~ p(. | x_a(j))       weigh    lw_j = log2 p(y | x'_j)
-//   normalise  w_j = 2^lw_j, sums         resample a(j) by mote_systematic
+//   normalise  w_j = 2^lw_j, sums         resample a(j) by mote_resample
 //
 // Pipelined 0: a loop's next turn begins when the one before is through; 1: turns follow each other cycle by cycle.
 // Merged 1: the first three loops are one. Ports, formats and words are mote_sisr's.
 //
 // range    1 <= n_i <= 2^At, At >= 2. Registers are read at start_i
-// timing   turns of ProposeLatency + 5, WeighLatency + 3, 8 and 8 cycles (merged: ProposeLatency + WeighLatency + 10, 8), or
+// timing   turns of ProposeLatency + 5, WeighLatency + 3, 8 and 8 cycles (merged: ProposeLatency + WeighLatency + 8, 8), or
 //          of one cycle and the rest once a loop; the golden model counts cycles exactly
 // golden   mote/hardware/filters/sisr.hpp (PlainLoops)
 // source   FPGA, table 3: before optimisation, pipelined, merged
@@ -66,9 +66,9 @@ module mote_sisr_plain #(
     output logic        [SumWidth-1:0]             est_sum_o,
     output logic signed [ScaleWidth-1:0]           est_scale_o
 );
-  localparam int unsigned ProposeTurn = Merged != 0 ? ProposeLatency + WeighLatency + 10 : ProposeLatency + 5;
+  localparam int unsigned ProposeTurn = Merged != 0 ? ProposeLatency + WeighLatency + 8 : ProposeLatency + 5;
   localparam int unsigned WeighTurn = WeighLatency + 3;
-  localparam int unsigned OtherTurn = 8;
+  localparam int unsigned OtherTurn = 6;
   typedef logic [At:0] count_t;
 
   // ---- steps
@@ -172,10 +172,10 @@ module mote_sisr_plain #(
   end
 
   // ---- normalise: weights and their sums
-  logic weight_valid, weight_first, log_first, weighed_last, scale_known, total_valid;
-  logic [2:0] weight_rise;
+  logic weight_valid, log_first, weighed_last;
+  logic [1:0] weight_rise;
   logic [WeightWidth-1:0] weight;
-  logic signed [ScaleWidth-1:0] scale, scale_early;
+  logic signed [ScaleWidth-1:0] scale;
   logic [SumWidth-1:0] total;
   count_t weighed_q, summed_q;
   assign log_first = weighed_q == '0;
@@ -194,33 +194,24 @@ module mote_sisr_plain #(
       .first_i(log_first),
       .log_weight_i(log_weight),
       .valid_o(weight_valid),
-      .first_o(weight_first),
       .rise_o(weight_rise),
       .weight_o(weight),
-      .scale_o(scale),
-      .scale_early_o(scale_early));
-  mote_delay #(.Width(StateWidth), .Depth(5)) u_summed_state (.clk_i, .d_i(logged_state), .d_o(summed_state));
+      .scale_o(scale));
+  mote_delay #(.Width(StateWidth), .Depth(3)) u_summed_state (.clk_i, .d_i(logged_state), .d_o(summed_state));
 
   // ---- resample
-  logic [31:0] resample_word;
-  logic unused_word, parent_valid;
-  assign unused_word = ^resample_word[7:0];
-  mote_valid #(.Depth(2)) u_scale_known (.clk_i, .rst_ni, .valid_i(weighed_last), .valid_o(scale_known));
-  mote_valid #(.Depth(1)) u_total_valid (.clk_i, .rst_ni, .valid_i(weight_last), .valid_o(total_valid));
-  mote_words #(.Seed(Seed), .Stream(Stream)) u_resample_words (
-      .clk_i, .rst_ni, .advance_i(total_valid), .word_o(resample_word));
-  mote_systematic #(.At(At), .Width(WeightWidth), .ScaleWidth(ScaleWidth)) u_systematic (
+  logic parent_valid;
+  mote_resample #(
+      .At(At), .Width(WeightWidth), .ScaleWidth(ScaleWidth), .Seed(Seed), .Stream(Stream)
+  ) u_parent (
       .clk_i, .rst_ni,
-      .drop_i(starts),
+      .starts_i(starts),
       .n_i(n_q),
       .write_i(weight_valid),
+      .last_i(weight_last),
       .weight_i(weight),
       .scale_i(scale),
-      .scale_known_i(scale_known),
-      .last_scale_i(scale_early),
-      .total_valid_i(total_valid),
       .total_i(total),
-      .uniform_i(resample_word[31:8]),
       .valid_o(parent_valid),
       .ready_i(resample_valid),
       .parent_o(parent));
@@ -246,13 +237,11 @@ module mote_sisr_plain #(
   ) u_estimate (
       .clk_i, .rst_ni,
       .weight_valid_i(weight_valid),
-      .weight_first_i(weight_first),
       .weight_rise_i(weight_rise),
       .weight_i(weight),
       .scale_i(scale),
       .sum_so_far_o(total),
       .value_valid_i(weight_valid),
-      .value_first_i(weight_first),
       .value_rise_i(weight_rise),
       .value_weight_i(weight),
       .value_i(summed_state),

@@ -2,14 +2,16 @@
 // weights a cycle.
 //
 //   scale(n)  = max(scale(n - 1), floor(lw / 8) + 1 of every lane), quanta of 8 octaves; first_i begins anew
-//   weight_o  = floor(2^(lw - 8 scale) 2^Width),   rise_o = scale(n) - scale(n - 1), at most 7
+//   weight_o  = floor(2^(lw - 8 scale) 2^Width), 0 from 3 quanta below the scale on
+//   rise_o    = scale(n) - scale(n - 1), at most 3; 3 for the first: nothing before it counts
 //
 // So no pass for the maximum is needed, and an observation far from every particle still tells them apart. Who adds
-// weights shifts his sum down by 8 rise_o bits first; the largest weight of a step is at least 2^(Width - 8).
+// weights shifts his sum down by 8 rise_o bits first, or drops it at 3; the largest weight of a step is at least
+// 2^(Width - 8).
 //
 // formats  log_weight_i: signed, LogWidth bits, 10 fraction bits, octaves; weight_o: unsigned, below 2^Width
 // error    2^-15 of the weight by the table, and 2^-Width of the scale by truncation
-// timing   latency 5, initiation interval 1, up to 4 lanes at full speed (the greatest of a row in one stage); scale_o goes with weight_o, scale_early_o is 3 cycles ahead of it
+// timing   latency 3, with several lanes 4; initiation interval 1. Log weights come from registers
 // golden   mote/hardware/filters/weights.hpp
 module mote_weight #(
     parameter int unsigned Lanes    = 1,
@@ -25,88 +27,72 @@ module mote_weight #(
     input  logic                         first_i,
     input  logic [Lanes*LogWidth-1:0]    log_weight_i,
     output logic                         valid_o,
-    output logic                         first_o,
-    output logic        [2:0]            rise_o,
+    output logic        [1:0]            rise_o,
     output logic [Lanes*Width-1:0]       weight_o,
-    output logic signed [ScaleWidth-1:0] scale_o,
-    output logic signed [ScaleWidth-1:0] scale_early_o
+    output logic signed [ScaleWidth-1:0] scale_o
 );
+  localparam int unsigned Before = Lanes > 1 ? 1 : 0;  // the stage that looks for a row's greatest
   typedef logic signed [ScaleWidth-1:0] scale_t;
   // Differences of scales are never negative here.
-  function automatic logic [2:0] limited(input logic [ScaleWidth-1:0] difference);
-    limited = difference > ScaleWidth'(7) ? 3'd7 : difference[2:0];
+  function automatic logic [1:0] limited(input logic [ScaleWidth-1:0] difference);
+    limited = difference > ScaleWidth'(3) ? 2'd3 : difference[1:0];
   endfunction
 
   logic [15:0] table_rom[1<<Frac];
   initial $readmemh(Table, table_rom);
 
-  // 1: the scale that each weight asks for, and the greatest of them.
-  logic [Lanes*ScaleWidth-1:0] need;
-  scale_t             most, most_q;
-  logic               valid1_q, first1_q;
+  // The floors of lw / 8, one below the scale that each weight asks for, and the greatest of them.
+  logic [Lanes*LogWidth-1:0] log_weights;
+  scale_t floor, most_d, most;
+  logic   valid, first;
   always_comb begin
-    most = need[0+:ScaleWidth];
-    for (int l = 1; l < Lanes; l++)
-      if ($signed(need[l*ScaleWidth+:ScaleWidth]) > most) most = need[l*ScaleWidth+:ScaleWidth];
+    most_d = ScaleWidth'($signed(log_weight_i[LogWidth-1-:ScaleWidth-1]));
+    for (int l = 1; l < Lanes; l++) begin
+      floor = ScaleWidth'($signed(log_weight_i[(l+1)*LogWidth-1-:ScaleWidth-1]));
+      if (floor > most_d) most_d = floor;
+    end
+    if (Lanes == 1) floor = '0;
   end
+  mote_valid #(.Depth(Before)) u_valid (.clk_i, .rst_ni, .valid_i, .valid_o(valid));
+  mote_delay #(.Width(ScaleWidth + 1 + Lanes * LogWidth), .Depth(Before)) u_row (
+      .clk_i, .d_i({most_d, first_i, log_weight_i}), .d_o({most, first, log_weights}));
+
+  // The greatest so far; how far it rises.
+  scale_t     level_q, level2_q;
+  logic signed [ScaleWidth:0] gain_q;
+  logic [1:0] rise2_q;
+  logic       first_q, valid1_q, valid2_q;
   always_ff @(posedge clk_i) begin
-    most_q   <= most;
-    first1_q <= first_i;
+    if (valid && (first || most > level_q)) level_q <= most;
+    gain_q   <= (ScaleWidth + 1)'(most) - (ScaleWidth + 1)'(level_q);
+    first_q  <= first;
+    rise2_q  <= first_q ? 2'd3 : gain_q[ScaleWidth] ? 2'd0 : limited(gain_q[ScaleWidth-1:0]);
+    level2_q <= level_q;
+    rise_o   <= rise2_q;
+    scale_o  <= level2_q + ScaleWidth'(1);
   end
 
-  // 2: the scale so far.
-  scale_t     scale_q;
-  logic       rises;
-  logic [2:0] rise2_q;
-  logic       valid2_q, first2_q;
-  assign rises = first1_q || most_q > scale_q;
-  always_ff @(posedge clk_i) begin
-    if (valid1_q && rises) scale_q <= most_q;
-    rise2_q  <= rises && !first1_q ? limited(most_q - scale_q) : 3'd0;
-    first2_q <= first1_q;
-  end
-  assign scale_early_o = scale_q;
-
-  // 3, 4, 5: how far below the scale each weight is; shift.
-  logic [2:0] rise3_q, rise4_q;
-  scale_t     scale3_q, scale4_q;
-  logic       valid3_q, first3_q, valid4_q, first4_q;
-  always_ff @(posedge clk_i) begin
-    rise3_q  <= rise2_q;
-    scale3_q <= scale_q;
-    first3_q <= first2_q;
-    rise4_q  <= rise3_q;
-    scale4_q <= scale3_q;
-    first4_q <= first3_q;
-    rise_o   <= rise4_q;
-    scale_o  <= scale4_q;
-    first_o  <= first4_q;
-  end
+  // How far below the scale each weight is; shift.
   for (genvar l = 0; l < Lanes; l++) begin : gen_lane
     logic signed [LogWidth-1:0] log_weight;
-    scale_t           need_q, need2_q;
-    logic [Frac+2:0]  below_q;
-    logic [2:0]       fine2_q, coarse3_q, fine3_q, fine4_q;
-    logic [15:0]      power_q, power3_q;
-    logic [Width-1:0] shifted_q;
-    assign log_weight = log_weight_i[l*LogWidth+:LogWidth];
-    assign need[l*ScaleWidth+:ScaleWidth] = ScaleWidth'(log_weight >>> (Frac + 3)) + ScaleWidth'(1);
+    scale_t      floor_q;
+    logic [2:0]  fine_q, fine2_q;
+    logic [1:0]  coarse2_q;
+    logic [15:0] power_q, power2_q;
+    assign log_weight = log_weights[l*LogWidth+:LogWidth];
     always_ff @(posedge clk_i) begin
-      need_q      <= need[l*ScaleWidth+:ScaleWidth];
-      below_q     <= log_weight[Frac+2:0];
-      need2_q     <= need_q;
-      fine2_q     <= ~below_q[Frac+2:Frac];
-      power_q     <= table_rom[below_q[Frac-1:0]];
-      coarse3_q   <= limited(scale_q - need2_q);
-      fine3_q     <= fine2_q;
-      power3_q    <= power_q;
-      shifted_q   <= {power3_q, {(Width - 16) {1'b0}}} >> {coarse3_q, 3'b0};
-      fine4_q     <= fine3_q;
-      weight_o[l*Width+:Width] <= shifted_q >> fine4_q;
+      floor_q   <= ScaleWidth'(log_weight >>> (Frac + 3));
+      fine_q    <= ~log_weight[Frac+2:Frac];
+      power_q   <= table_rom[log_weight[Frac-1:0]];
+      coarse2_q <= limited(level_q - floor_q);
+      fine2_q   <= fine_q;
+      power2_q  <= power_q;
+      weight_o[l*Width+:Width] <= coarse2_q == 2'd3 ? '0
+                                : {power2_q, {(Width - 16) {1'b0}}} >> {coarse2_q, 3'b0} >> fine2_q;
     end
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) {valid1_q, valid2_q, valid3_q, valid4_q, valid_o} <= '0;
-    else {valid1_q, valid2_q, valid3_q, valid4_q, valid_o} <= {valid_i, valid1_q, valid2_q, valid3_q, valid4_q};
+    if (!rst_ni) {valid1_q, valid2_q, valid_o} <= '0;
+    else {valid1_q, valid2_q, valid_o} <= {valid, valid1_q, valid2_q};
   end
 endmodule

@@ -1,15 +1,15 @@
 // A systematic resampler by itself: the log weights of a set come in, the parents of its children go out.
 //
-//   parent of child j: the least i with  w_0 + ... + w_i > (u + j) T / N,   T = sum w,  u ~ U[0, 1) of 24 bits
+//   parent of child j: the first i with  floor(C_i N / T + v) > j,  C_i = w_0 + ... + w_i,  T = sum w,  v ~ U[0, 1)
 //
 // formats  log_weight_i: signed, LogWidth bits, 10 fraction bits, octaves; parent_o: unsigned
-// range    1 <= n_i <= 2^At, standing from the first weight of a set until its last parent has left; At >= 2
+// range    1 <= n_i <= 2^At, standing from the first weight of a set until its last parent has left; At >= 6
 // timing   streams: a weight a clock until the set is complete, then parents, up to one a clock (a row of two particles without
 //          children costs a cycle); the next set is taken when the last parent has left
 // seeding  uniform words from Seed; a reset begins them anew
 // golden   resampled() in mote/hardware/machine/accelerator.hpp
 // source   Kitagawa 1996 (systematic resampling); PPF section 3.5
-module mote_resampler #(
+module mote_resample_stream #(
     parameter int unsigned At       = 10,
     parameter int unsigned LogWidth = 24,
     parameter int unsigned Width    = 24,
@@ -36,7 +36,8 @@ module mote_resampler #(
 
   // ---- a set's weights in, then its parents out
   count_t taken_q, kept_q, left_q;
-  logic takes, leaves, kept_valid, kept_first, kept_last;
+  logic takes, takes_q, first_q, leaves, kept_valid, kept_last;
+  logic [LogWidth-1:0] log_q;
   assign log_ready_o = taken_q != n_i && left_q == '0;
   assign takes = log_valid_i && log_ready_o;
   assign leaves = parent_valid_o && parent_ready_i;
@@ -54,47 +55,41 @@ module mote_resampler #(
   end
 
   // ---- weights and their sum at the last scale
-  logic [2:0] rise;
+  logic [1:0] rise;
   logic [Width-1:0] weight;
   logic [SumWidth-1:0] sum_q;
-  logic signed [ScaleWidth-1:0] scale, unused_early;
-  logic done_q;
+  logic signed [ScaleWidth-1:0] scale;
   mote_weight #(.LogWidth(LogWidth), .Width(Width), .Table(Exp2Table)) u_weight (
       .clk_i, .rst_ni,
-      .valid_i(takes),
-      .first_i(taken_q == '0),
-      .log_weight_i,
+      .valid_i(takes_q),
+      .first_i(first_q),
+      .log_weight_i(log_q),
       .valid_o(kept_valid),
-      .first_o(kept_first),
       .rise_o(rise),
       .weight_o(weight),
-      .scale_o(scale),
-      .scale_early_o(unused_early));
-  always_ff @(posedge clk_i)
-    if (kept_valid) sum_q <= (kept_first ? '0 : sum_q >> {rise, 3'b0}) + SumWidth'(weight);
+      .scale_o(scale));
+  always_ff @(posedge clk_i) begin
+    log_q   <= log_weight_i;
+    first_q <= taken_q == '0;
+    if (kept_valid) sum_q <= (rise == 2'd3 ? '0 : sum_q >> {rise, 3'b0}) + SumWidth'(weight);
+  end
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) done_q <= 1'b0;
-    else done_q <= kept_last;
+    if (!rst_ni) takes_q <= 1'b0;
+    else takes_q <= takes;
   end
 
   // ---- the walk
-  logic walk_valid, unused_word;
-  logic [31:0] word;
-  assign unused_word = ^word[7:0];
+  logic walk_valid;
   assign parent_valid_o = walk_valid && left_q != '0;
-  mote_words #(.Seed(Seed), .Stream(0)) u_words (.clk_i, .rst_ni, .advance_i(done_q), .word_o(word));
-  mote_systematic #(.At(At), .Width(Width), .ScaleWidth(ScaleWidth)) u_systematic (
+  mote_resample #(.At(At), .Width(Width), .ScaleWidth(ScaleWidth), .Seed(Seed)) u_resample (
       .clk_i, .rst_ni,
-      .drop_i(takes && taken_q == '0),
+      .starts_i(takes && taken_q == '0),
       .n_i,
       .write_i(kept_valid),
+      .last_i(kept_last),
       .weight_i(weight),
       .scale_i(scale),
-      .scale_known_i(kept_last),
-      .last_scale_i(scale),
-      .total_valid_i(done_q),
       .total_i(sum_q),
-      .uniform_i(word[31:8]),
       .valid_o(walk_valid),
       .ready_i(leaves),
       .parent_o);
