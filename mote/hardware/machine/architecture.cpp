@@ -126,7 +126,8 @@ const std::vector<Architecture>& architectures() {
        chain_parameters,
        chain_range,
        chain_capacity,
-       golden_chains},
+       golden_chains,
+       "imh.h"},
       {"imh-parallel",
        "independent Metropolis-Hastings, chains in lockstep, parents from all of them in turn",
        "mote_imh",
@@ -138,6 +139,7 @@ const std::vector<Architecture>& architectures() {
        chain_parameters,
        chain_range,
        chain_capacity,
+<<<<<<< HEAD
        golden_chains},
       {"imh-chain",
        "independent Metropolis-Hastings, one chain that pairs of proposer and weigher feed a row a cycle",
@@ -168,6 +170,10 @@ const std::vector<Architecture>& architectures() {
        false,
        0,
        true},
+=======
+       golden_chains,
+       "imh.h"},
+>>>>>>> 77f101568ed9e905129aa1acf05cdbe7774926d6
       {"sisr",
        "bootstrap filter, one lane, systematic resampling of a step beside the next one's proposals",
        "mote_sisr",
@@ -179,7 +185,8 @@ const std::vector<Architecture>& architectures() {
        cloud_parameters,
        cloud_range,
        cloud_capacity,
-       golden_cloud},
+       golden_cloud,
+       "sisr.h"},
       {"sisr-lanes",
        "bootstrap filter, lanes abreast, systematic resampling of a step beside the next one's proposals",
        "mote_sisr",
@@ -191,7 +198,8 @@ const std::vector<Architecture>& architectures() {
        cloud_parameters,
        cloud_range,
        cloud_capacity,
-       golden_cloud},
+       golden_cloud,
+       "sisr.h"},
       {"sisr-plain",
        "bootstrap filter in separate loops, nothing overlapped: what the others are measured against",
        "mote_sisr_plain",
@@ -203,7 +211,8 @@ const std::vector<Architecture>& architectures() {
        no_parameters,
        cloud_range,
        cloud_capacity,
-       golden_loops},
+       golden_loops,
+       "sisr.h"},
   };
   return all;
 }
