@@ -136,11 +136,17 @@ Recorded recorded(const std::function<Trace(Step)>& trace, std::vector<Quantity>
   made.initial.assign(simple.ids.begin(), simple.ids.begin() + d);
   made.next.assign(simple.ids.begin() + d, simple.ids.begin() + 2 * d);
   made.log_likelihood = simple.ids[2 * states.size()];
-  if (traces[0].has_transition) made.log_transition = simple.ids.back();
+  auto more = simple.ids.begin() + 2 * d + 1;
+  if (traces[0].has_transition) made.log_transition = *more++;
+  if (more != simple.ids.end()) {
+    made.proposed.assign(more, more + d);
+    made.log_ratio = more[d];
+  }
   made.states = std::move(states);
   made.columns = std::move(columns);
   made.prior_draws = traces[0].prior_draws;
   made.draws = traces[0].draws;
+  made.proposal_draws = traces[0].proposal_draws;
   made.schedule = [trace, schedule, first = traces[0]](Step t) { return schedule_at(t, trace(t), first, schedule); };
   return made;
 }

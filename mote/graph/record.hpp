@@ -23,10 +23,13 @@ struct Recorded {
   std::vector<Id> next;              ///< (D,), x_t from kBefore, kSchedule, kNormal and kUniform
   Id log_likelihood = 0;             ///< from kState, kColumn and kSchedule
   std::optional<Id> log_transition;  ///< from kState, kBefore and kSchedule
+  std::vector<Id> proposed;          ///< (D,), x_t by a proposal from kColumn too, if one was recorded; else empty
+  std::optional<Id> log_ratio;       ///< log p(x_t | x_{t-1}) / g(x_t | x_{t-1}, y_t) of that proposal
   std::vector<Quantity> states;      ///< by the index of kState and kBefore
   std::vector<Column> columns;       ///< by the index of kColumn
   std::vector<bool> prior_draws;     ///< by the index of kPriorNormal, kPriorUniform: whether it is normal
   std::vector<bool> draws;           ///< likewise for moves
+  std::vector<bool> proposal_draws;  ///< likewise for proposals, whose inputs are kNormal and kUniform as well
   std::function<std::vector<double>(Step)> schedule;  ///< by the index of kSchedule
 
   /// initial, next, log_likelihood and log_transition one after the other.
@@ -42,7 +45,7 @@ struct Trace {
   Graph graph{Constants::kApart};
   std::vector<Id> outputs;
   bool has_transition = false;
-  std::vector<bool> prior_draws, draws;
+  std::vector<bool> prior_draws, draws, proposal_draws;
 };
 
 /// A recording from the traces of one model at several steps; `trace(t)` makes one.
@@ -100,6 +103,32 @@ Trace trace(const M& model, Step t) {
   return trace;
 }
 
+/// The model's lines at step t with those of a proposal, for one row with everything seen.
+template <class G, Model M>
+Trace trace_with(const M& model, Step t) {
+  Trace made = trace(model, t);
+  Graph& graph = made.graph;
+  auto x = blank_state<Node>(model);
+  auto before = blank_state<Node>(model);
+  for (std::size_t d = 0; d < x.size(); ++d) {
+    x[d] = Node(graph, graph.input(Role::kState, static_cast<std::uint32_t>(d)));
+    before[d] = Node(graph, graph.input(Role::kBefore, static_cast<std::uint32_t>(d)));
+  }
+  std::vector<Node> seen;
+  for (std::size_t j = 0; j < model.columns().size(); ++j)
+    seen.emplace_back(graph, graph.input(Role::kColumn, static_cast<std::uint32_t>(j)));
+  const Row<Node> row = Row<Node>::of(seen);
+  const Rows<Node> rows(&row, 1);
+  const G proposal = make_proposal<G>(model);
+  InputDraw draw(graph, Role::kNormal, Role::kUniform, made.proposal_draws);
+  for (const Node& node : proposal.template propose<Node>(model, t, before, rows, draw))
+    made.outputs.push_back(node.id_in(graph));
+  const Node ratio = model.template log_transition<Node>(t, x, before) -
+                     proposal.template log_density<Node>(model, t, x, before, rows);
+  made.outputs.push_back(ratio.id_in(graph));
+  return made;
+}
+
 /// Records a model.
 ///
 /// error   std::logic_error if it does other operations at other steps
@@ -107,6 +136,15 @@ Trace trace(const M& model, Step t) {
 template <Model M>
 Recorded record(const M& model, Identities identities = Identities::kExact) {
   return recorded([model](Step t) { return trace(model, t); }, model.states(), model.columns(), identities);
+}
+
+/// Records a model with one of its proposals.
+///
+/// error, cost   as record()
+template <class G, Model M>
+Recorded record_with(const M& model) {
+  return recorded([model](Step t) { return trace_with<G>(model, t); }, model.states(), model.columns(),
+                  Identities::kExact);
 }
 
 }  // namespace mote::graph

@@ -9,7 +9,7 @@ namespace {
 
 /// Does mote_add need its second stage?
 bool refined(const Sum& sum) {
-  constexpr int kOneStage = 20;
+  constexpr int kOneStage = 22;
   const int fraction = std::max(sum.a.fraction, sum.b.fraction);
   const int bits = std::max(sum.a.width() + fraction - sum.a.fraction, sum.b.width() + fraction - sum.b.fraction) + 2;
   const bool rounds = sum.finish.rounding == Rounding::kNearest && fraction > sum.y.fraction;
@@ -37,7 +37,9 @@ Circuit Product::circuit() const {
   auto parameters = operands(a, b, y);
   append_finish(parameters, finish);
   parameters.push_back(parameter("Logic", multiplier == Multiplier::kLogic));
-  const int latency = 1 + product_latency(multiplier, b.sign ? b.width() : b.width() + 1);
+  const bool rounds = finish.rounding == Rounding::kNearest && a.fraction + b.fraction > y.fraction;
+  const bool finished = finish.overflow == Overflow::kSaturate || (rounds && multiplier == Multiplier::kLogic);
+  const int latency = product_latency(multiplier, b.sign ? b.width() : b.width() + 1) + (finished ? 1 : 0);
   return {"mote_multiply", parameters, {port("a_i", a), port("b_i", b)}, {port("y_o", y)}, latency};
 }
 

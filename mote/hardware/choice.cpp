@@ -11,10 +11,10 @@ Circuit Less::circuit() const {
 
 Circuit Select::circuit() const {
   return {"mote_select",
-          {parameter("Width", y.width())},
+          {parameter("Width", y.width()), parameter("Register", registered)},
           {{"s_i", 1, false}, port("a_i", y), port("b_i", y)},
           {port("y_o", y)},
-          1};
+          registered ? 1 : 0};
 }
 
 Circuit Extremum::circuit() const {

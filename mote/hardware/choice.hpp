@@ -21,6 +21,7 @@ struct Less {
 /// y = s ? a : b.
 struct Select {
   Format y;
+  bool registered = true;
 
   void compute(Columns in, Results out) const {
     for (std::size_t i = 0; i < out[0].size(); ++i) out[0][i] = in[0][i] != 0 ? in[1][i] : in[2][i];

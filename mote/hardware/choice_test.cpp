@@ -41,6 +41,7 @@ TEST(Choice, CircuitsEqualTheirTwins) {
   all.add(Less{{true, 7, 10}, {true, 5, 12}});
   all.add(Less{{false, 7, 3}, {true, 9, -1}});
   all.add(Select{{true, 7, 10}});
+  all.add(Select{{true, 7, 10}, false});
   for (const bool greater : {false, true}) {
     all.add(Extremum{{true, 7, 10}, greater});
     all.add(Extremum{{false, 7, 10}, greater});

@@ -38,6 +38,8 @@ class Compound {
         op.circuit(), [op](Columns in, Results out) { op.compute(in, out); }, operands);
   }
   void output(const std::string& name, const Format& format, Wire wire);
+  /// The clock after which a wire is there.
+  int ready(const Wire& wire) const { return nodes_[wire.node].ready; }
 
   void compute(Columns in, Results out) const;
   Circuit circuit() const;

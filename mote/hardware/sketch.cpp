@@ -1,6 +1,42 @@
 #include "mote/hardware/sketch.hpp"
 
+#include <algorithm>
+
 namespace mote::hardware {
+namespace {
+
+/// How a result in [least, greatest] steps of 2^-fraction is finished: what cannot overflow needs no saturation, and
+/// what loses no bits no rounding.
+Finish finish_of(WideWord least, WideWord greatest, int fraction, const Format& y, Rounding rounding) {
+  const int drop = fraction - y.fraction;
+  const auto at = [&](Word end) {
+    return drop >= 0 ? static_cast<WideWord>(end) << drop : static_cast<WideWord>(end) >> -drop;
+  };
+  const bool fits = least >= at(y.least()) && greatest <= at(y.greatest());
+  return {drop > 0 ? rounding : Rounding::kDown, fits ? Overflow::kWrap : Overflow::kSaturate};
+}
+
+}  // namespace
+
+Signal Sketch::added(Sum sum, const Signal& a, const Signal& b) {
+  const int fraction = std::max(sum.a.fraction, sum.b.fraction);
+  const auto at = [&](Word end, const Format& f) { return static_cast<WideWord>(end) << (fraction - f.fraction); };
+  const WideWord low = at(sum.subtract ? sum.b.greatest() : sum.b.least(), sum.b);
+  const WideWord high = at(sum.subtract ? sum.b.least() : sum.b.greatest(), sum.b);
+  const WideWord least = at(sum.a.least(), sum.a) + (sum.subtract ? -low : low);
+  const WideWord greatest = at(sum.a.greatest(), sum.a) + (sum.subtract ? -high : high);
+  sum.finish = finish_of(least, greatest, fraction, sum.y, sum.finish.rounding);
+  return op(sum, sum.y, a, b);
+}
+
+Signal Sketch::product(const Signal& a, const Signal& b, const Format& y) {
+  const auto at = [](Word x, Word z) { return static_cast<WideWord>(x) * z; };
+  const WideWord corners[] = {at(a.format.least(), b.format.least()), at(a.format.least(), b.format.greatest()),
+                              at(a.format.greatest(), b.format.least()), at(a.format.greatest(), b.format.greatest())};
+  const auto [least, greatest] = std::minmax_element(std::begin(corners), std::end(corners));
+  const Finish finish = finish_of(*least, *greatest, a.format.fraction + b.format.fraction, y, Rounding::kNearest);
+  return op(Product{a.format, b.format, y, multiplier_, finish}, y, a, b);
+}
 
 Signal Sketch::scaled(const Signal& a, double c, int bits, const Format& y, Overflow overflow) {
   const auto [word, fraction] = constant_word(c, bits);

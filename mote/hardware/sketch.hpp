@@ -21,7 +21,7 @@ struct Signal {
   }
 };
 
-/// Results round to nearest and saturate, unless a function says otherwise.
+/// Results round to nearest and saturate, unless a function says otherwise; sums and products that fit spare either.
 class Sketch {
  public:
   Sketch(std::string name, Multiplier multiplier) : compound_(std::move(name)), multiplier_(multiplier) {}
@@ -30,18 +30,19 @@ class Sketch {
   Signal standing(const std::string& name, const Format& format) { return {compound_.standing(name, format), format}; }
   void output(const std::string& name, const Signal& signal) { compound_.output(name, signal.format, signal.wire); }
   Compound done() { return std::move(compound_); }
+  int ready(const Signal& signal) const { return compound_.ready(signal.wire); }
 
   /// The number of the format that is nearest to a value.
   Signal constant(const Format& format, double value) {
     return {compound_.constant(format, format.nearest(value)), format};
   }
-  Signal sum(const Signal& a, const Signal& b, const Format& y) { return op(Sum{a.format, b.format, y}, y, a, b); }
+  Signal sum(const Signal& a, const Signal& b, const Format& y, Rounding rounding = Rounding::kNearest) {
+    return added({a.format, b.format, y, false, {rounding, {}}}, a, b);
+  }
   Signal difference(const Signal& a, const Signal& b, const Format& y) {
-    return op(Sum{a.format, b.format, y, true}, y, a, b);
+    return added({a.format, b.format, y, true}, a, b);
   }
-  Signal product(const Signal& a, const Signal& b, const Format& y) {
-    return op(Product{a.format, b.format, y, multiplier_}, y, a, b);
-  }
+  Signal product(const Signal& a, const Signal& b, const Format& y);
   /// a c, the constant with so many significant bits; `overflow` says whether it wraps, as phases do.
   Signal scaled(const Signal& a, double c, int bits, const Format& y, Overflow overflow = Overflow::kSaturate);
   Signal convert(const Signal& a, const Format& y, Finish finish = {}) {
@@ -55,7 +56,9 @@ class Sketch {
   Signal magnitude(const Signal& a, const Signal& sign_of_a);
   Signal negate_if(const Signal& s, const Signal& a, const Format& y) { return op(NegateIf{a.format, y}, y, s, a); }
   Signal less(const Signal& a, const Signal& b) { return op(Less{a.format, b.format}, {false, 1, 0}, a, b); }
-  Signal select(const Signal& s, const Signal& a, const Signal& b) { return op(Select{a.format}, a.format, s, a, b); }
+  Signal select(const Signal& s, const Signal& a, const Signal& b, bool registered = true) {
+    return op(Select{a.format, registered}, a.format, s, a, b);
+  }
   Signal extremum(const Signal& a, const Signal& b, bool greater) {
     return op(Extremum{a.format, greater}, a.format, a, b);
   }
@@ -69,6 +72,8 @@ class Sketch {
   }
 
  private:
+  Signal added(Sum sum, const Signal& a, const Signal& b);
+
   Compound compound_;
   Multiplier multiplier_;
 };

@@ -12,6 +12,9 @@
 namespace mote::hardware {
 namespace {
 
+/// Every register with an asynchronous reset has an inverter of its own before this.
+constexpr const char* kMergeEqualCells = "opt_merge -share_all; opt_clean";
+
 /// The number of cells of each kind in what `stat` printed last.
 std::map<std::string, int> cells_of(const std::string& printed) {
   std::istringstream lines(printed.substr(std::min(printed.size(), printed.rfind("Number of cells:"))));
@@ -113,9 +116,10 @@ int total(const std::map<std::string, int>& cells, const std::vector<std::string
 }
 
 std::map<std::string, int> cells_after(const std::string& folder, const std::string& script) {
-  run_tool(
-      "yosys", "yosys",
-      {"-q", "-p", "read_verilog -sv -defer " + folder + "*.sv; " + script + "; tee -o " + folder + "stat.txt stat"});
+  run_tool("yosys", "yosys",
+           {"-q", "-p",
+            "read_verilog -sv -defer " + folder + "*.sv; " + script + "; " + std::string(kMergeEqualCells) +
+                "; tee -o " + folder + "stat.txt stat"});
   return cells_of(read_text(folder + "stat.txt"));
 }
 

@@ -48,6 +48,8 @@ struct Ungm {
     if (Copies == 1) return {{"y", ""}};
     return {{"y1", ""}, {"y2", ""}};
   }
+  /// One of the copies by itself: the whole is their product.
+  Ungm<1> part() const requires(Copies > 1) { return {p}; }
   Density density() const { return p.q > 0 ? Density::kState : Density::kNone; }
 
   template <class S, class D>

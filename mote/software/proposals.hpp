@@ -21,13 +21,21 @@ Density density_of(const M& model) {
   }
 }
 
+[[noreturn]] inline void refuse_unknown_proposal(const std::string& proposal, const std::string& where) {
+  throw Refusal(ExitCode::kWrongUse, {where, "--proposal", "one of the model's proposals (see mote models NAME)",
+                                      proposal, "Pass --proposal prior."});
+}
+
+[[noreturn]] inline void refuse_proposal_without_density(const std::string& proposal, const std::string& where) {
+  throw Refusal(ExitCode::kWrongUse,
+                where + ": --proposal " + proposal +
+                    ": the model has no transition density with these parameters (its state noise is zero or "
+                    "degenerate), so only the prior can propose. Pass --proposal prior.");
+}
+
 /// Refuses a proposal whose weights the model cannot give.
 inline void check_density(Density density, const Plan& plan, const std::string& where) {
-  if (density == Density::kNone)
-    throw Refusal(ExitCode::kWrongUse,
-                  where + ": --proposal " + plan.proposal +
-                      ": the model has no transition density with these parameters (its state noise is zero or "
-                      "degenerate), so only the prior can propose. Pass --proposal prior.");
+  if (density == Density::kNone) refuse_proposal_without_density(plan.proposal, where);
   if (density == Density::kNoise && plan.filter == FilterKind::kImh)
     throw Refusal(ExitCode::kWrongUse, where + ": --proposal " + plan.proposal +
                                            ": the model's noise has fewer dimensions than its state, so the sum over "
@@ -53,9 +61,7 @@ std::unique_ptr<Filter> with_proposal(const M& model, const Plan& plan, const st
   } else {
     offer(std::type_identity<Prior>());
   }
-  if (!filter)
-    throw Refusal(ExitCode::kWrongUse, {where, "--proposal", "one of the model's proposals (see mote models NAME)",
-                                        plan.proposal, "Pass --proposal prior."});
+  if (!filter) refuse_unknown_proposal(plan.proposal, where);
   return filter;
 }
 

@@ -33,7 +33,7 @@ TEST(Rtl, SaysWithNullsWhatWasNotAskedFor) {
 
 // claim    the simulated circuit equals its golden model, filters as well as the double filter, and tells the evidence
 // referee  mote run on the same recording: rmse and log evidence of N = 500, which chance moves by a few per cent
-// design   growth model, 40 steps, a gap and a step that was not seen; both kinds of filter
+// design   growth model, 40 steps, a gap and a step that was not seen; all kinds of filter
 TEST(Rtl, SimulatesARecording) {
   const Scratch scratch;
   expect_done(
@@ -41,7 +41,7 @@ TEST(Rtl, SimulatesARecording) {
                     "sed -e '/^7,/d' -e 's/^9,.*/9,/' all.csv > obs.csv"));
   expect_done(scratch.shell("mote run ungm --data obs.csv --truth truth.csv -n 20000 --summary run.json"));
   const Json referee = Json::parse(scratch.read("run.json"));
-  for (const std::string arch : {"imh", "sisr"}) {
+  for (const std::string arch : {"imh", "sisr", "imh-chain --lanes 4 --overlap", "auxiliary --proposal observation"}) {
     expect_done(scratch.shell("mote rtl ungm --arch " + arch +
                               " -n 500 --simulate obs.csv --truth truth.csv --json j.json --out d"));
     const Json json = Json::parse(scratch.read("j.json"));
@@ -52,7 +52,7 @@ TEST(Rtl, SimulatesARecording) {
     std::istringstream estimates(scratch.read("d/estimates.csv"));
     std::string line;
     std::getline(estimates, line);
-    EXPECT_EQ(line, arch == "imh" ? "t,x_mean,log_evidence,acceptance" : "t,x_mean,log_evidence");
+    EXPECT_EQ(line, arch == "sisr" ? "t,x_mean,log_evidence" : "t,x_mean,log_evidence,acceptance");
     double evidence = 0;
     int rows = 0;
     for (; std::getline(estimates, line); ++rows) {
@@ -181,9 +181,12 @@ TEST(Rtl, RefusesInASentence) {
   scratch.write("twice.csv", "t,y\n1,2\n1,3\n");
   scratch.write("one.csv", "t,y\n1,2\n");
   const Wrong all[] = {
-      {"local-level --arch fir", 2, "--arch: expected one of imh, imh-parallel, sisr"},
+      {"local-level --arch fir", 2, "--arch: expected one of imh, imh-parallel, imh-chain, auxiliary, sisr"},
       {"local-level --arch sisr --burn-in 3", 2, "--burn-in: expected an architecture that has it, got sisr"},
       {"local-level --lanes 2", 2, "--lanes: expected an architecture that has it"},
+      {"local-level --arch sisr --overlap", 2, "--overlap: expected an architecture that has it, got sisr"},
+      {"local-level --proposal optimal", 2, "--proposal: expected an architecture that has it, got imh"},
+      {"local-level --arch auxiliary --proposal none", 2, "--proposal: expected one of the model's proposals"},
       {"local-level --arch sisr-lanes -n 99", 2, "--lanes: expected a power of two from 1 to 8 that divides"},
       {"local-level -n 100 --draws 50", 2, "--draws: expected an integer from 100 to 65536"},
       {"local-level -n 0", 2, "--particles: expected an integer from 1 to 65536"},

@@ -35,8 +35,13 @@ class CatalogueModel {
   virtual std::vector<ValueSource> sources() const = 0;
   /// A filter on the plan's engine.
   virtual std::unique_ptr<Filter> filter(const Plan& plan, const std::string& where) const = 0;
-  /// The model as a graph.
-  virtual graph::Recorded recorded() const = 0;
+  /// The model as a graph; with a proposal other than "prior" that one's, too.
+  ///
+  /// error   Refusal (kWrongUse): no proposal of that name, or no weights for it
+  graph::Recorded recorded() const { return recorded("prior", ""); }
+  virtual graph::Recorded recorded(const std::string& proposal, const std::string& where) const = 0;
+  /// The model of which this one is independent copies, states and columns copy after copy; nullptr: of none.
+  virtual std::unique_ptr<CatalogueModel> part() const = 0;
   /// What solves the model's recordings exactly; nullptr: nothing known.
   virtual std::unique_ptr<referee::Solver> solver() const = 0;
   /// Draws a recording step by step, in no more memory than a step needs.

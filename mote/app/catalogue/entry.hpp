@@ -8,6 +8,29 @@
 
 namespace mote {
 
+/// The recording of a model with the proposal of that name.
+///
+/// error   Refusal (kWrongUse): the model has none of that name, or its weights do not exist
+template <Model M>
+graph::Recorded recorded_with_proposal(const M& model, const std::string& proposal, const std::string& where) {
+  if (proposal == Prior::kName) return graph::record(model);
+  std::optional<graph::Recorded> made;
+  const auto offer = [&]<class G>(std::type_identity<G>) {
+    if constexpr (!std::is_same_v<G, Prior>) {
+      if (proposal != G::kName) return;
+      if (density_of(model) == Density::kNone) refuse_proposal_without_density(proposal, where);
+      made = graph::record_with<G>(model);
+    }
+  };
+  if constexpr (requires { typename M::Proposals; }) {
+    [&]<class... G>(const std::tuple<G...>*) {
+      (offer(std::type_identity<G>()), ...);
+    }(static_cast<const typename M::Proposals*>(nullptr));
+  }
+  if (!made) refuse_unknown_proposal(proposal, where);
+  return *std::move(made);
+}
+
 template <Observable M>
 class CatalogueModelOf final : public CatalogueModel {
  public:
@@ -31,7 +54,18 @@ class CatalogueModelOf final : public CatalogueModel {
         return make_reference_filter(model_, plan, where);
     }
   }
-  graph::Recorded recorded() const override { return graph::record(model_); }
+  using CatalogueModel::recorded;
+  graph::Recorded recorded(const std::string& proposal, const std::string& where) const override {
+    return recorded_with_proposal(model_, proposal, where);
+  }
+  std::unique_ptr<CatalogueModel> part() const override {
+    if constexpr (requires { model_.part(); }) {
+      using Part = decltype(model_.part());
+      return std::make_unique<CatalogueModelOf<Part>>(model_.part());
+    } else {
+      return nullptr;
+    }
+  }
   std::unique_ptr<referee::Solver> solver() const override { return referee::solver_of(model_); }
 
   using CatalogueModel::simulate;

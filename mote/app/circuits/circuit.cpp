@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "mote/app/circuits/instances.hpp"
+
 namespace mote {
 namespace {
 
@@ -18,10 +20,12 @@ std::string identifier(std::string name) {
 }
 
 /// What is simulated to choose words by: enough for their ranges.
-WordStudyDesign sample_design() {
+WordStudyDesign sample_design(const CircuitDesign& circuit) {
   WordStudyDesign design;
   design.particles = 200;
   design.recordings = 8;
+  design.where = circuit.where;
+  design.proposal = circuit.proposal;
   return design;
 }
 
@@ -43,13 +47,27 @@ hardware::ModelCircuit model_circuit(const std::string& name, const FilterCircui
 
 }  // namespace
 
-FilterCircuit filter_circuit(const CatalogueModel& model, const std::string& name, const CircuitDesign& design) {
-  const WordStudy study(model, sample_design());
+FilterCircuit filter_circuit(const std::shared_ptr<const CatalogueModel>& model, const std::string& name,
+                             const CircuitDesign& design) {
+  const WordStudy study(*model_of_instance(model, name, design), sample_design(design));
   hardware::DatapathOptions options;
   options.prefix = "mote_" + identifier(name);
+<<<<<<< HEAD
+  options.overlapped = design.overlapped;
+  FilterCircuit circuit{
+      study.recorded(), hardware::datapath(study.recorded(), study.samples(), options), nullptr, {}, model->states()};
+  const auto machine = [&](unsigned instance) {
+    return std::make_shared<hardware::Machine>(model_circuit(identifier(name), circuit), *design.architecture,
+                                               design.registers, seed_of_instance(design.seed, instance), design.lanes,
+                                               design.overlapped);
+  };
+  circuit.machine = machine(0);
+  for (unsigned i = 1; i < design.instances; ++i) circuit.others.push_back(machine(i));
+=======
   FilterCircuit circuit{study.recorded(), hardware::datapath(study.recorded(), study.samples(), options), nullptr};
   circuit.machine = std::make_shared<hardware::Machine>(model_circuit(identifier(name), circuit), *design.architecture,
                                                         design.registers, design.seed, design.lanes, design.access);
+>>>>>>> 77f101568ed9e905129aa1acf05cdbe7774926d6
   return circuit;
 }
 

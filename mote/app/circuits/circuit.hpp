@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "mote/app/words/study.hpp"
 #include "mote/hardware/datapath/datapath.hpp"
@@ -16,7 +17,14 @@ struct CircuitDesign {
   hardware::RunRegisters registers;  ///< of the runs to come; the circuit has room for no more
   std::uint64_t seed = 1;
   unsigned lanes = 1;
+<<<<<<< HEAD
+  bool overlapped = false;
+  unsigned instances = 1;          ///< for a model of so many independent copies: a circuit each, side by side
+  std::string where = "mote rtl";  ///< who asks for it, for refusals
+  std::string proposal = "prior";  ///< of an architecture whose weights are those of pairs
+=======
   hardware::RegisterAccess access = hardware::RegisterAccess::kPorts;
+>>>>>>> 77f101568ed9e905129aa1acf05cdbe7774926d6
 };
 
 /// A circuit, and what the host knows of its model.
@@ -24,12 +32,19 @@ struct FilterCircuit {
   graph::Recorded recorded;
   hardware::Datapath datapath;
   std::shared_ptr<const hardware::Machine> machine;
+  std::vector<std::shared_ptr<const hardware::Machine>> others;  ///< further instances, which differ in their seeds
+  std::vector<Quantity> states;                                  ///< of the whole model
+
+  const hardware::Machine& instance(std::size_t i) const { return i == 0 ? *machine : *others[i - 1]; }
 };
 
 /// Makes a model's circuit; its words are chosen on recordings that the model draws.
 ///
-/// error   Refusal (kWrongUse): no circuit exists for an operation of the model
+/// error   Refusal (kWrongUse): no circuit exists for an operation of the model, or it is not as many copies as
+/// instances
+///         are asked for
 /// cost    a second or two
-FilterCircuit filter_circuit(const CatalogueModel& model, const std::string& name, const CircuitDesign& design);
+FilterCircuit filter_circuit(const std::shared_ptr<const CatalogueModel>& model, const std::string& name,
+                             const CircuitDesign& design);
 
 }  // namespace mote

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "mote/app/circuits/instances.hpp"
 #include "mote/base/filled_in.hpp"
 #include "mote/base/refusal.hpp"
 #include "mote/hardware/machine/bits.hpp"
@@ -51,9 +52,9 @@ void append_particles(Vectors& vectors, const hardware::Machine& machine, const 
   }
 }
 
-Vectors vectors_of(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& played,
-                   const std::string& where) {
-  const hardware::Machine& machine = *circuit.machine;
+Vectors vectors_of(const FilterCircuit& circuit, const CircuitDesign& design, unsigned instance,
+                   const Recording& played, const std::string& where) {
+  const hardware::Machine& machine = circuit.instance(instance);
   const auto golden = machine.golden();
   golden->start(design.registers);
   Vectors vectors;
@@ -150,7 +151,31 @@ std::string testbench_of(const hardware::Machine& machine, const CircuitDesign& 
                     {"most_cycles", fmt::format("{}", 2 * vectors.cycles + 1000)}});
 }
 
+<<<<<<< HEAD
+/// The module that holds all instances, and its own testbench in place of one circuit's.
+void add_instances(Files& files, const FilterCircuit& circuit, const CircuitDesign& design,
+                   const std::vector<Vectors>& all) {
+  const hardware::Machine& machine = *circuit.machine;
+  std::uint64_t cycles = 0;
+  for (const Vectors& vectors : all) cycles = std::max(cycles, vectors.cycles);
+  files[fmt::format("rtl/{}_x{}.sv", machine.name(), design.instances)] =
+      module_of_instances(machine, design.instances);
+  files["testbench/testbench.sv"] =
+      testbench_of_instances(machine, design, all.front().steps, all.front().kept, 2 * cycles + 1000);
+  for (const char* name : {"observations", "estimates", "particles"})
+    files.erase(fmt::format("testbench/{}.hex", name));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    files[fmt::format("testbench/observations{}.hex", i)] = all[i].observations;
+    files[fmt::format("testbench/estimates{}.hex", i)] = all[i].estimates;
+    files[fmt::format("testbench/particles{}.hex", i)] = all[i].particles;
+  }
+}
+
+Files files_of(const FilterCircuit& circuit, const CircuitReport& found, const std::vector<Vectors>& all) {
+  const Vectors& vectors = all.front();
+=======
 DesignFiles files_of(const FilterCircuit& circuit, const CircuitReport& found, const Vectors& vectors) {
+>>>>>>> 77f101568ed9e905129aa1acf05cdbe7774926d6
   const hardware::Machine& machine = *circuit.machine;
   const double period_ns = 1000 / found.cost.value_or(hardware::Cost{}).fmax_mhz.value_or(100);
   const std::map<std::string, std::string> places{
@@ -180,8 +205,12 @@ DesignFiles files_of(const FilterCircuit& circuit, const CircuitReport& found, c
                     {"testbench/particles.hex", vectors.particles}};
   for (const hardware::DesignFile& file : machine.modules("")) files["rtl/" + file.name] = file.text;
   for (const hardware::DesignFile& file : machine.tables()) files["tables/" + file.name] = file.text;
+<<<<<<< HEAD
+  if (found.design.instances > 1) add_instances(files, circuit, found.design, all);
+=======
   for (const hardware::DesignFile& file : hardware::c_library(machine, found.design.registers))
     files["golden/" + file.name] = file.text;
+>>>>>>> 77f101568ed9e905129aa1acf05cdbe7774926d6
   if (found.simulation)
     files["estimates.csv"] = circuit_estimates_csv(found.simulation->record, machine.architecture().chain);
   return files;
@@ -208,6 +237,14 @@ void make_folders(const fs::path& folder, const DesignFiles& files) {
 
 }  // namespace
 
+<<<<<<< HEAD
+void write_design(OutputSet& outputs, const std::string& folder, const FilterCircuit& circuit,
+                  const CircuitReport& found, const Recording& played, const std::string& where) {
+  std::vector<Vectors> all;
+  for (unsigned i = 0; i < found.design.instances; ++i)
+    all.push_back(vectors_of(circuit, found.design, i, instance_of(circuit, found.design, played, i), where));
+  const Files files = files_of(circuit, found, all);
+=======
 std::string hex_of(const std::vector<std::uint32_t>& words) {
   std::string text;
   for (auto word = words.rbegin(); word != words.rend(); ++word) text += fmt::format("{:08x}", *word);
@@ -215,6 +252,7 @@ std::string hex_of(const std::vector<std::uint32_t>& words) {
 }
 
 void write_files(OutputSet& outputs, const std::string& folder, const DesignFiles& files) {
+>>>>>>> 77f101568ed9e905129aa1acf05cdbe7774926d6
   refuse_foreign(folder, files);
   make_folders(folder, files);
   for (const auto& [name, text] : files) outputs.open((fs::path(folder) / name).string())->write(text);

@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "mote/app/circuits/instances.hpp"
 #include "mote/app/files/output.hpp"
 #include "mote/base/refusal.hpp"
 
@@ -31,14 +33,15 @@ void refuse_crowded(const ObservedStep& step, const std::string& where) {
 EstimateRow row_of(const FilterCircuit& circuit, const CircuitDesign& design, Step t, bool seen,
                    const hardware::Estimate& estimate) {
   const hardware::Datapath& path = circuit.datapath;
-  const std::uint64_t offered = design.architecture->offered(design.registers, design.lanes);
+  const std::uint64_t offered = design.architecture->offered(design.registers, circuit.machine->capacity());
+  const std::uint64_t decided = design.architecture->decided(design.registers, circuit.machine->capacity());
   EstimateRow row{t, {}, {}, {}};
   for (std::size_t d = 0; d < path.states.size(); ++d) row.states.push_back({path.mean(d, estimate.mean[d]), kNaN});
   const double octaves = hardware::log2_evidence(estimate, path.arithmetic.formats, offered) + path.constant;
   row.report.log_evidence = seen ? octaves * std::numbers::ln2 : 0;
   row.report.ess = kNaN;
-  if (design.architecture->chain && offered > design.lanes)
-    row.report.acceptance = static_cast<double>(estimate.accepted) / static_cast<double>(offered - design.lanes);
+  if (design.architecture->chain && decided > 0)
+    row.report.acceptance = static_cast<double>(estimate.accepted) / static_cast<double>(decided);
   return row;
 }
 
@@ -77,23 +80,56 @@ std::vector<std::vector<std::int64_t>> observed_by(const FilterCircuit& circuit,
   return observed;
 }
 
+namespace {
+
+/// One of a design's instances and what it sees: `run(machine, observed)` gives its estimates.
+template <class RunOne>
+RunRecord run_of_instances(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
+                           const std::string& where, const RunOne& run) {
+  std::vector<RunRecord> records;
+  for (unsigned i = 0; i < design.instances; ++i) {
+    const Recording seen = instance_of(circuit, design, recording, i);
+    records.push_back(record_of(circuit, design, seen, run(i, observed_by(circuit, seen, where))));
+  }
+  return design.instances == 1 ? records.front() : side_by_side(records, circuit.states);
+}
+
+}  // namespace
+
 CircuitSimulation simulated_run(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
+<<<<<<< HEAD
+                                const std::string& where) {
+  std::vector<hardware::Agreement> agreements;
+  const auto simulate = [&](unsigned i, const std::vector<std::vector<std::int64_t>>& observed) {
+    const hardware::Machine& machine = circuit.instance(i);
+    hardware::Simulator simulator(machine);
+    const hardware::CircuitRun run = simulator.run(design.registers, observed);
+    agreements.push_back(hardware::agreement(run, *machine.golden(), design.registers, observed));
+    return run.estimates;
+  };
+  RunRecord record = run_of_instances(circuit, design, recording, where, simulate);
+  return {side_by_side(agreements), std::move(record)};
+=======
                                 const std::string& where, bool counts_changes) {
   const auto observed = observed_by(circuit, recording, where);
   hardware::Simulator simulator(*circuit.machine, counts_changes);
   const hardware::CircuitRun run = simulator.run(design.registers, observed);
   return {hardware::agreement(run, *circuit.machine->golden(), design.registers, observed), run.activity,
           record_of(circuit, design, recording, run.estimates)};
+>>>>>>> 77f101568ed9e905129aa1acf05cdbe7774926d6
 }
 
 RunRecord golden_run(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
                      const std::string& where) {
-  const auto golden =
-      design.architecture->golden(circuit.datapath.arithmetic, design.seed, circuit.machine->capacity());
-  golden->start(design.registers);
-  std::vector<hardware::Estimate> estimates;
-  for (const auto& step : observed_by(circuit, recording, where)) estimates.push_back(golden->step(step));
-  return record_of(circuit, design, recording, estimates);
+  return run_of_instances(
+      circuit, design, recording, where, [&](unsigned i, const std::vector<std::vector<std::int64_t>>& observed) {
+        const auto golden = design.architecture->golden(circuit.datapath.arithmetic, seed_of_instance(design.seed, i),
+                                                        circuit.machine->capacity());
+        golden->start(design.registers);
+        std::vector<hardware::Estimate> estimates;
+        for (const auto& step : observed) estimates.push_back(golden->step(step));
+        return estimates;
+      });
 }
 
 std::string circuit_estimates_csv(const RunRecord& record, bool chain) {

@@ -7,6 +7,7 @@
 #include "mote/app/catalogue/text_entry.hpp"
 #include "mote/app/circuits/accelerator.hpp"
 #include "mote/app/circuits/folder.hpp"
+#include "mote/app/circuits/instances.hpp"
 #include "mote/app/circuits/simulation.hpp"
 #include "mote/app/commands/command.hpp"
 #include "mote/app/commands/job.hpp"
@@ -139,7 +140,12 @@ ExitCode run_rtl(const Arguments& arguments) {
   Output* json = outputs.open(arguments.text("--json"));
   Output* report = outputs.open(arguments.text("--report"));
   CircuitReport found{job.model_name, arguments.command_line(), design, {}, {}, {}};
+<<<<<<< HEAD
+  const FilterCircuit circuit = filter_circuit(job.model, job.model_name, design);
+  if (family) found.cost = times(design.instances, hardware::cost_of(*circuit.machine, *family));
+=======
   const FilterCircuit circuit = filter_circuit(*job.model, job.model_name, design);
+>>>>>>> 77f101568ed9e905129aa1acf05cdbe7774926d6
   if (arguments.given("--simulate"))
     found.simulation =
         simulated_run(circuit, design, job.recording, arguments.text("--simulate"), family == hardware::Family::kXc7);

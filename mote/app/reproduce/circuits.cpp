@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "mote/app/circuits/instances.hpp"
 #include "mote/app/commands/rtl_options.hpp"
 #include "mote/engine/latency.hpp"
 #include "mote/hardware/tools.hpp"
@@ -27,7 +28,7 @@ std::string CircuitBench::missing(const Comparison& c) const {
 }
 
 const FilterCircuit& CircuitBench::circuit() {
-  if (!circuit_) circuit_ = filter_circuit(*job_.model, job_.model_name, design_);
+  if (!circuit_) circuit_ = filter_circuit(job_.model, job_.model_name, design_);
   return *circuit_;
 }
 
@@ -37,24 +38,27 @@ RunRecord CircuitBench::record(const Recording& recording, std::uint64_t seed_of
   return golden_run(circuit(), design, recording, where_);
 }
 
-/// Cycles of a step, from runs of all steps and of the first alone, over the sequential law for one proposal a cycle.
+/// Cycles of a step, from runs of all steps and of the first alone, over the law for one proposal a cycle in each lane.
 double CircuitBench::step_cycles_over_law(const Recording& recording) {
-  const auto observed = observed_by(circuit(), recording, where_);
+  const auto observed = observed_by(circuit(), instance_of(circuit(), design_, recording, 0), where_);
   hardware::Simulator simulator(*circuit().machine);
   const auto cycles = [&](std::size_t steps) {
     const auto end = observed.begin() + static_cast<std::ptrdiff_t>(steps);
     return static_cast<double>(simulator.run(design_.registers, {observed.begin(), end}).cycles);
   };
-  const hardware::ImhLatency latency(circuit().machine->formats());
-  const double law = sequential_time(design_.registers.proposals(design_.lanes), {1, 1, 1},
-                                     {static_cast<double>(latency.propose), static_cast<double>(latency.weigh)});
+  const hardware::ImhLanes lanes = design_.architecture->fed(circuit().machine->capacity());
+  const hardware::ImhLatency latency(circuit().machine->formats(), lanes);
+  const StageLatencies latencies{static_cast<double>(latency.propose), static_cast<double>(latency.weigh)};
+  const double law = lanes.folded ? paired_time(design_.registers.draws + design_.registers.burn_in, lanes.count,
+                                                {1, 1, 1.0 / lanes.count}, latencies)
+                                  : sequential_time(lanes.rows(design_.registers), {1, 1, 1}, latencies);
   return (cycles(observed.size()) - cycles(1)) / (static_cast<double>(observed.size() - 1) * law);
 }
 
 const CircuitReport& CircuitBench::report(const Recording& recording) {
   if (!found_) {
     found_ = CircuitReport{job_.model_name, "", design_, {}, simulated_run(circuit(), design_, recording, where_), {}};
-    if (family_) found_->cost = hardware::cost_of(*circuit().machine, *family_);
+    if (family_) found_->cost = times(design_.instances, hardware::cost_of(*circuit().machine, *family_));
   }
   return *found_;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mote/app/words/companion.hpp"
+#include "mote/app/words/pairs.hpp"
 #include "mote/filter/sisr.hpp"
 
 namespace mote {
@@ -17,7 +18,7 @@ double squared(double difference, bool angle) {
 }  // namespace
 
 WordStudy::WordStudy(const CatalogueModel& model, const WordStudyDesign& design, std::size_t first)
-    : design_(design), first_(first), recorded_(model.recorded()) {
+    : design_(design), first_(first), recorded_(model.recorded(design.proposal, design.where)) {
   for (std::size_t k = 0; k < design.recordings; ++k)
     scenes_.push_back(simulated_scene(model, design.steps, design.seed + first + k));
   const auto watched = std::make_shared<graph::WatchedArithmetic>(recorded_.graph);
@@ -34,7 +35,15 @@ hardware::Samples WordStudy::samples() const {
   std::vector<double> errors = squares(sampling).errors;
   const auto estimates = static_cast<double>(scenes_.size() * static_cast<std::size_t>(design_.steps));
   for (double& error : errors) error = std::sqrt(error / estimates);
-  return {sampling->samples().calls, errors};
+  hardware::Samples samples{sampling->samples().calls, errors};
+  if (recorded_.log_ratio) {
+    PairSampling pairs(recorded_, calls / kKept + 1, kKept);
+    for (std::size_t k = 0; k < scenes_.size(); ++k)
+      pairs.filter(scenes_[k].recording, design_.particles, design_.seed + first_ + k);
+    samples.calls[static_cast<std::size_t>(hardware::Part::kNext)] = pairs.moves();
+    samples.calls[static_cast<std::size_t>(hardware::Part::kWeigh)] = pairs.weighings();
+  }
+  return samples;
 }
 
 double WordStudy::error_ratio(const graph::FixedPoint& point) const {

@@ -2,6 +2,7 @@
 /// How a filter fares in fixed-point arithmetic: a model's ranges and word lengths by simulation.
 
 #include <functional>
+#include <string>
 
 #include "mote/app/catalogue/scene.hpp"
 #include "mote/graph/words.hpp"
@@ -15,7 +16,9 @@ struct WordStudyDesign {
   Step steps = 50;
   std::size_t recordings = 10;
   std::uint64_t seed = 1;
-  double margin = 0.25;  ///< by which ranges are wider than what was seen
+  std::string where = {};          ///< who asks for it, for refusals
+  std::string proposal = "prior";  ///< whose particles circuits' words are chosen by
+  double margin = 0.25;            ///< by which ranges are wider than what was seen
   graph::WordSearch search;
 };
 
@@ -36,7 +39,8 @@ class WordStudy {
   const graph::Recorded& recorded() const { return recorded_; }
   /// Ranges, from the double filter's particles.
   graph::Ranges ranges() const;
-  /// The calls of the model's functions by the double filter, from which a circuit's words are chosen.
+  /// The calls of the model's functions by the double filter, from which a circuit's words are chosen; with a proposal
+  /// those of the auxiliary-variable filter.
   hardware::Samples samples() const;
   /// The error ratio of these formats: that of the state for which it is largest.
   double error_ratio(const graph::FixedPoint& point) const;

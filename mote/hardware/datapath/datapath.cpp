@@ -24,7 +24,7 @@ std::string numbered(const char* name, std::size_t k) { return name + std::to_st
 
 /// The words that a particle takes: each has a draw of the move and one of the prior.
 std::size_t draw_words(const graph::Recorded& recorded) {
-  return std::max(recorded.prior_draws.size(), recorded.draws.size());
+  return std::max({recorded.prior_draws.size(), recorded.draws.size(), recorded.proposal_draws.size()});
 }
 
 /// Builds the pipelines of a plan.
@@ -42,8 +42,8 @@ class Builder {
   Compound propose() {
     Sketch sketch(options_.prefix + "_propose", options_.multiplier);
     Mapping mapping(plan_, recorded_, precision_, fused_, sketch, functions_);
-    const Signal first = sketch.standing("first_i", {false, 1, 0});
-    const std::vector<Signal> states = state_ports(sketch);
+    const Signal first = of_the_step(sketch, "first_i", {false, 1, 0});
+    const std::vector<Signal> states = state_ports(sketch, "state");
     give_draws(sketch, mapping);
     give_fields(sketch, mapping);
     mapping.compute(plan_.initial);
@@ -54,13 +54,16 @@ class Builder {
     mapping.compute(plan_.next);
     for (std::size_t d = 0; d < states.size(); ++d)
       sketch.output("state" + std::to_string(d) + "_o", mapping.in(plan_.next[d], precision_.states[d]));
+    if (recorded_.log_ratio)
+      for (std::size_t d = 0; d < states.size(); ++d) sketch.output("before" + std::to_string(d) + "_o", parents[d]);
     return sketch.done();
   }
 
   Compound weigh() {
     Sketch sketch(options_.prefix + "_weigh", options_.multiplier);
     Mapping mapping(plan_, recorded_, precision_, fused_, sketch, functions_);
-    give_states(mapping, Role::kState, state_ports(sketch));
+    give_states(mapping, Role::kState, state_ports(sketch, "state"));
+    if (recorded_.log_ratio) give_states(mapping, Role::kBefore, state_ports(sketch, "before"));
     give_fields(sketch, mapping);
     mapping.compute({plan_.log_weight});
     sketch.output("log_o", mapping.in(plan_.log_weight, kLogWeight));
@@ -68,10 +71,14 @@ class Builder {
   }
 
  private:
-  std::vector<Signal> state_ports(Sketch& sketch) const {
+  /// A number that all particles of a step have.
+  Signal of_the_step(Sketch& sketch, const std::string& name, const Format& format) const {
+    return options_.overlapped ? sketch.input(name, format) : sketch.standing(name, format);
+  }
+  std::vector<Signal> state_ports(Sketch& sketch, const char* name) const {
     std::vector<Signal> states;
     for (std::size_t d = 0; d < precision_.states.size(); ++d)
-      states.push_back(sketch.input(numbered("state", d), precision_.states[d]));
+      states.push_back(sketch.input(numbered(name, d), precision_.states[d]));
     return states;
   }
   void give_states(Mapping& mapping, Role role, const std::vector<Signal>& states) const {
@@ -80,7 +87,7 @@ class Builder {
   }
   void give_fields(Sketch& sketch, Mapping& mapping) const {
     for (std::size_t k = 0; k < plan_.fields.size(); ++k)
-      mapping.give(plan_.fields[k], sketch.standing(numbered("obs", k), precision_.formats[plan_.fields[k]]));
+      mapping.give(plan_.fields[k], of_the_step(sketch, numbered("obs", k), precision_.formats[plan_.fields[k]]));
   }
   /// A draw, or its product with a constant where nothing else uses it: a table gives either.
   struct ScaledDraw {
@@ -108,7 +115,7 @@ class Builder {
     std::vector<Signal> words;
     for (std::size_t k = 0; k < draw_words(recorded_); ++k)
       words.push_back(sketch.input(numbered("word", k), kSignedBits));
-    const WordDraws draws(sketch, options_.multiplier);
+    const WordDraws draws(sketch);
     for (Id id = 0; id < plan_.graph.size(); ++id) {
       const Vertex& v = plan_.graph[id];
       if (v.op != Op::kInput) continue;
@@ -217,17 +224,20 @@ std::string slice(const std::string& bus, int at, int width) {
   return bus + "[" + std::to_string(at + width - 1) + ":" + std::to_string(at) + "]";
 }
 
-Connections state_connections(const Datapath& datapath, const std::string& bus, const char* end) {
+/// States one after the other on a bus, and behind them the `carried` parents.
+Connections state_connections(const Datapath& datapath, const std::string& bus, const char* end, unsigned carried) {
   Connections all;
   const auto width = static_cast<int>(datapath.arithmetic.formats.value_bits);
-  for (std::size_t d = 0; d < datapath.states.size(); ++d)
-    all.emplace_back("state" + std::to_string(d) + end, slice(bus, static_cast<int>(d) * width, width));
+  const std::size_t dims = datapath.states.size();
+  for (std::size_t k = 0; k < dims + carried; ++k)
+    all.emplace_back((k < dims ? "state" : "before") + std::to_string(k % dims) + end,
+                     slice(bus, static_cast<int>(k) * width, width));
   return all;
 }
 
-void append_fields(Connections& all, const Datapath& datapath) {
+void append_fields(Connections& all, const Datapath& datapath, const char* bus) {
   for (std::size_t k = 0; k < datapath.observed.size(); ++k)
-    all.emplace_back(numbered("obs", k), slice("obs", datapath.observed[k].at, datapath.observed[k].format.width()));
+    all.emplace_back(numbered("obs", k), slice(bus, datapath.observed[k].at, datapath.observed[k].format.width()));
 }
 
 }  // namespace
@@ -242,21 +252,21 @@ double Datapath::mean(std::size_t d, std::int64_t word) const {
 
 Connections propose_connections(const Datapath& datapath) {
   Connections all{{"clk_i", "clk_i"}, {"first_i", "t == 16'd1"}};
-  const Connections in = state_connections(datapath, "parent", "_i");
-  const Connections out = state_connections(datapath, "proposed", "_o");
+  const Connections in = state_connections(datapath, "parent", "_i", 0);
+  const Connections out = state_connections(datapath, "proposed", "_o", datapath.arithmetic.formats.carried);
   all.insert(all.end(), in.begin(), in.end());
   for (unsigned w = 0; w < datapath.arithmetic.formats.draw_words; ++w)
     all.emplace_back(numbered("word", w), "words[" + std::to_string(32 * w) + "+:32]");
-  append_fields(all, datapath);
+  append_fields(all, datapath, "obs");
   all.insert(all.end(), out.begin(), out.end());
   return all;
 }
 
 Connections weigh_connections(const Datapath& datapath) {
   Connections all{{"clk_i", "clk_i"}};
-  const Connections in = state_connections(datapath, "to_weigh", "_i");
+  const Connections in = state_connections(datapath, "to_weigh", "_i", datapath.arithmetic.formats.carried);
   all.insert(all.end(), in.begin(), in.end());
-  append_fields(all, datapath);
+  append_fields(all, datapath, "weigh_obs");
   all.emplace_back("log_o", "log_weight");
   return all;
 }
@@ -275,6 +285,7 @@ Datapath datapath(const graph::Recorded& recorded, const Samples& samples, const
   Formats formats;
   formats.dims = static_cast<unsigned>(precision.states.size());
   formats.value_bits = static_cast<unsigned>(precision.states[0].width());
+  formats.carried = recorded.log_ratio ? formats.dims : 0;
   formats.draw_words = static_cast<unsigned>(draw_words(recorded));
   formats.propose_latency = static_cast<unsigned>(made.propose.circuit().latency);
   formats.weigh_latency = static_cast<unsigned>(made.weigh.circuit().latency);

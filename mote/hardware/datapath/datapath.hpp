@@ -21,6 +21,7 @@ struct DatapathOptions {
   double margin = 0.25;               ///< by which ranges are wider than the samples
   int more_bits = 0;                  ///< after the point, for all words
   bool fuse = true;                   ///< functions of one number become one table where that is smaller
+  bool overlapped = false;            ///< observations go with each particle instead of standing
   std::string prefix = "mote_model";  ///< of the modules' names: <prefix>_propose and <prefix>_weigh
 };
 
@@ -37,9 +38,10 @@ struct ObservedField {
 /// propose: parents and words to states; weigh: states to log2 p(y | x) without the terms that do not depend on the
 /// state, s13.10, saturated. At t = 1 the parent's state is drawn by `initial`, then moved by `next` as later ones are;
 /// the draws of both are parts of the same words (draws.hpp). An observation that was not seen adds nothing; a term of
-/// the likelihood that reads several counts when all of them were seen. Every input of a pipeline but the observation
+/// the likelihood that reads several counts when all of them were seen. With a recorded proposal a state goes with its
+/// parent, before0_o .., to be weighed: formats.carried. Every input of a pipeline but the observation
 /// word and first_i belongs to one particle; those two must stand from 3 clocks before the first particle of a step
-/// until its last has left.
+/// until its last has left, or belong to one particle too (overlapped).
 struct Datapath {
   Compound propose{"propose"}, weigh{"weigh"};
   Arithmetic arithmetic;                ///< formats and golden twins; `observed` has the fields in order
@@ -61,7 +63,7 @@ struct Datapath {
 using Connections = std::vector<std::pair<std::string, std::string>>;
 
 /// Connections of the pipelines to buses of mote_imh and mote_sisr by these names: t, obs, parent, words, proposed;
-/// obs, to_weigh, log_weight.
+/// weigh_obs, to_weigh, log_weight.
 Connections propose_connections(const Datapath& datapath);
 Connections weigh_connections(const Datapath& datapath);
 

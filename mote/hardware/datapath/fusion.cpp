@@ -5,7 +5,6 @@
 #include <set>
 
 #include "mote/graph/evaluate.hpp"
-#include "mote/hardware/datapath/tables.hpp"
 
 namespace mote::hardware {
 namespace {
@@ -85,10 +84,10 @@ class Search {
       const std::vector<Id> own = spared_by(source, root);
       int cost = 0;
       for (const Id id : own) cost += operator_cost(plan_, precision_, id);
-      if (own.size() < 2 || cost <= most + kLutsOfDsp) continue;  // no table is cheaper than that
+      if (cost <= most + kLeastTable) continue;
       const auto unit = table(source, root);
-      if (!unit || cost - cost_of(*unit) <= most) continue;
-      most = cost - cost_of(*unit);
+      if (!unit || cost - unit->cost() <= most) continue;
+      most = cost - unit->cost();
       fused_.insert_or_assign(root, Fused{source, *unit});
     }
     if (const auto found = fused_.find(root); found != fused_.end())
@@ -100,11 +99,11 @@ class Search {
     return v.op == Op::kInput && v.role != graph::Role::kState && v.role != graph::Role::kBefore;
   }
 
-  std::optional<Piecewise> table(Id source, Id root) const {
+  std::optional<FunctionTable> table(Id source, Id root) const {
     const auto function = function_between(plan_, source, root);
     const Format& x = precision_.formats[source];
-    if (x.width() > kWidest || x.width() < 4) return {};
-    return smallest_table(function, x, precision_.formats[root], folds(function, x), options_.multiplier);
+    if (x.width() > kWidest) return {};
+    return cheapest_table(function, x, precision_.formats[root], folds(function, x), options_.multiplier);
   }
 
   /// How a function's table may be folded: by its symmetry, if it has one.
@@ -126,6 +125,7 @@ class Search {
   }
 
   static constexpr int kWidest = 20;
+  static constexpr int kLeastTable = 40;  ///< no table worth a search is cheaper than that
 
   const Plan& plan_;
   const Precision& precision_;
@@ -156,6 +156,7 @@ int operator_cost(const Plan& plan, const Precision& precision, Id id) {
   const Vertex& v = plan.graph[id];
   const int width = precision.formats[id].width();
   const auto operand = [&](std::size_t k) { return precision.formats[v.args[k]].width(); };
+  const auto cost = [](int luts, int blocks, int clocks) { return luts + blocks * kLutsOfDsp + clocks * kLutsOfClock; };
   switch (v.op) {
     case Op::kConstant:
     case Op::kInput:
@@ -163,26 +164,26 @@ int operator_cost(const Plan& plan, const Precision& precision, Id id) {
       return 0;
     case Op::kMultiply: {
       const bool constant = plan.graph.is_constant(v.args[0]) || plan.graph.is_constant(v.args[1]);
-      if (constant) return 2 * width;
+      if (constant) return cost(2 * width, 0, 3);
       const int blocks =
           ((std::max(operand(0), operand(1)) + 24) / 25) * ((std::min(operand(0), operand(1)) + 17) / 18);
-      return width + blocks * kLutsOfDsp;
+      return cost(width, blocks, 3);
     }
     case Op::kDivide:
-      return 5 * (operand(0) + operand(1)) + 2 * width + 3 * kLutsOfDsp;
+      return cost(5 * (operand(0) + operand(1)) + 2 * width, 3, 20);
     case Op::kSqrt:
     case Op::kExp:
     case Op::kLog:
-      return 5 * operand(0) + 2 * width + 2 * kLutsOfDsp;
+      return cost(5 * operand(0) + 2 * width, 2, 16);
     case Op::kSin:
     case Op::kCos:
-      return 3 * operand(0) + 4 * width + 3 * kLutsOfDsp;
+      return cost(3 * operand(0) + 4 * width, 3, 16);
     case Op::kAtan:
-      return 2 * operand(0) + 2 * kLutsOfDsp;
+      return cost(2 * operand(0), 2, 10);
     case Op::kAtan2:
-      return 8 * operand(0) + 5 * kLutsOfDsp;
+      return cost(8 * operand(0), 5, 24);
     default:
-      return 2 * width;
+      return cost(2 * width, 0, 1);
   }
 }
 

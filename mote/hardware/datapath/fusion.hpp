@@ -6,15 +6,15 @@
 
 #include "mote/hardware/datapath/plan.hpp"
 #include "mote/hardware/datapath/precision.hpp"
+#include "mote/hardware/datapath/tables.hpp"
 #include "mote/hardware/functions.hpp"
-#include "mote/hardware/piecewise.hpp"
 
 namespace mote::hardware {
 
 /// A vertex that one table computes from another.
 struct Fused {
   graph::Id source = 0;
-  Piecewise unit;
+  FunctionTable unit;
 };
 
 /// The vertices, by number, whose operators back to another vertex cost more than a table in their place.
@@ -28,7 +28,7 @@ std::map<graph::Id, Fused> fused(const Plan& plan, const Precision& precision, c
 /// The value of a vertex from that of another which it is a function of.
 std::function<double(double)> function_between(const Plan& plan, graph::Id source, graph::Id root);
 
-/// About what an operator takes, in look-up tables.
+/// About what an operator takes, in look-up tables, its clocks included.
 int operator_cost(const Plan& plan, const Precision& precision, graph::Id id);
 
 }  // namespace mote::hardware

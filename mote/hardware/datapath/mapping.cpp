@@ -16,15 +16,35 @@ using graph::Vertex;
 constexpr int kMostDigits = 6;
 /// Bits of a function's operand, at least.
 constexpr int kLeastOperand = 5;
+/// Bits of a factor that any DSP block takes.
+constexpr int kBitsOfFactor = 18;
+/// Bits that parts of a sum keep beyond its last.
+constexpr int kSumGuard = 2;
 
-/// How a sum is finished: what cannot overflow needs no saturation, and what loses no bits no rounding.
-Finish finish_of(WideWord least, WideWord greatest, int fraction, const Format& y) {
-  const int drop = fraction - y.fraction;
-  const auto at = [&](Word end) {
-    return drop >= 0 ? static_cast<WideWord>(end) << drop : static_cast<WideWord>(end) >> -drop;
-  };
-  const bool fits = least >= at(y.least()) && greatest <= at(y.greatest());
-  return {drop > 0 ? Rounding::kNearest : Rounding::kDown, fits ? Overflow::kWrap : Overflow::kSaturate};
+bool is_sum(Op op) { return op == Op::kAdd || op == Op::kSubtract; }
+
+/// A part of a sum.
+struct Addend {
+  Signal signal;
+  bool negative;
+  int ready;
+};
+
+/// The two parts as one: the positive one first, so that a sum with a positive part is one at last.
+Addend added(Sketch& sketch, Addend a, Addend b, const Format& y) {
+  if (a.negative && !b.negative) std::swap(a, b);
+  const bool subtract = a.negative != b.negative;
+  const Signal both = subtract ? sketch.difference(a.signal, b.signal, y) : sketch.sum(a.signal, b.signal, y);
+  return {both, a.negative, sketch.ready(both)};
+}
+
+/// A format for a + b or a - b that is exact but for what lies below `fraction`.
+Format format_of_part(const Addend& a, const Addend& b, int fraction) {
+  const Format& one = a.signal.format;
+  const Format& other = b.signal.format;
+  const bool sign = one.sign || other.sign || a.negative != b.negative;
+  const int integer = std::max(one.integer, other.integer) + 1;
+  return {sign, integer, std::max(1 - integer, std::min(fraction, std::max(one.fraction, other.fraction)))};
 }
 
 }  // namespace
@@ -32,18 +52,88 @@ Finish finish_of(WideWord least, WideWord greatest, int fraction, const Format& 
 void Mapping::give(Id id, const Signal& signal) { signals_[id] = converted(signal, precision_.formats[id]); }
 
 void Mapping::compute(const std::vector<Id>& outputs) {
-  std::vector<bool> used(plan_.graph.size());
-  for (const Id id : outputs) used[id] = true;
-  for (Id id = static_cast<Id>(used.size()); id-- > 0;)
-    if (used[id] && !signals_.contains(id)) {
-      if (const auto found = fused_.find(id); found != fused_.end()) {
-        used[found->second.source] = true;
-        continue;
-      }
-      for (const Id arg : plan_.graph[id].operands()) used[arg] = true;
+  wanted_.assign(plan_.graph.size(), false);
+  for (const Id id : outputs) wanted_[id] = true;
+  for (Id id = static_cast<Id>(wanted_.size()); id-- > 0;)
+    if (wanted_[id] && !signals_.contains(id))
+      for (const Id arg : operands(id)) wanted_[arg] = true;
+  for (Id id = 0; id < wanted_.size(); ++id)
+    if (wanted_[id] && !signals_.contains(id)) signals_[id] = made(id);
+}
+
+/// Whether a sum is a part of its only reader's.
+bool Mapping::within_sum(Id id) const {
+  return is_sum(plan_.graph[id].op) && readers_[id] == 1 && !signals_.contains(id) && !fused_.contains(id);
+}
+
+/// What is added or subtracted by a sum and the sums within it.
+std::vector<Mapping::Term> Mapping::terms(Id sum) const {
+  std::vector<Term> all;
+  std::vector<Term> open{{sum, false}};
+  while (!open.empty()) {
+    const Term at = open.back();
+    open.pop_back();
+    if (at.id != sum && !within_sum(at.id)) {
+      all.push_back(at);
+      continue;
     }
-  for (Id id = 0; id < used.size(); ++id)
-    if (used[id] && !signals_.contains(id)) signals_[id] = made(id);
+    const Vertex& v = plan_.graph[at.id];
+    open.push_back({v.args[1], at.negative != (v.op == Op::kSubtract)});
+    open.push_back({v.args[0], at.negative});
+  }
+  return all;
+}
+
+/// What is needed for a vertex.
+std::vector<Id> Mapping::operands(Id id) const {
+  if (const auto found = fused_.find(id); found != fused_.end()) return {found->second.source};
+  const auto direct = plan_.graph[id].operands();
+  if (!is_sum(plan_.graph[id].op)) return {direct.begin(), direct.end()};
+  std::vector<Id> all;
+  for (const Term& term : terms(id)) all.push_back(term.id);
+  return all;
+}
+
+/// The format of a sum or product, with up to `more` bits before the point in place of saturation and kSumGuard behind
+/// it in place of rounding, if that makes it whole: either takes more than the bits.
+Format Mapping::roomy(Id id, int integer, int fraction, int more) const {
+  const Format& y = precision_.formats[id];
+  const Format wide{y.sign, integer <= y.integer + more ? integer : y.integer,
+                    fraction <= y.fraction + kSumGuard ? fraction : y.fraction};
+  const bool log_weight = id == plan_.log_weight;
+  const bool fits = !log_weight || (wide.integer <= kLogWeight.integer && wide.fraction <= kLogWeight.fraction);
+  return fits && wide.width() <= room_[id] ? wide : y;
+}
+
+/// Sums and masked terms take any format, products what a DSP block takes; all else reads the vertex's own.
+std::vector<int> Mapping::room_of(const Plan& plan, const std::map<Id, Fused>& fused) {
+  constexpr int kMostBits = 48;
+  std::vector<int> room(plan.graph.size(), kMostBits);
+  for (const Part part : {Part::kInitial, Part::kNext})
+    for (const Id id : plan.outputs(part)) room[id] = 0;
+  for (Id id = 0; id < plan.graph.size(); ++id) {
+    const Vertex& v = plan.graph[id];
+    const bool masks = v.op == Op::kSelect && plan.seen_bit(v.args[0]) >= 0 && id != plan.log_weight;
+    const int most = is_sum(v.op) || masks ? kMostBits : v.op == Op::kMultiply ? kBitsOfFactor : 0;
+    for (const Id arg : v.operands()) room[arg] = std::min(room[arg], most);
+  }
+  for (const auto& [root, one] : fused) room[one.source] = 0;
+  return room;
+}
+
+std::vector<unsigned> Mapping::readers_of(const Plan& plan) {
+  std::vector<unsigned> readers(plan.graph.size());
+  std::vector<bool> seen(plan.graph.size());
+  for (const Part part : kParts) {
+    const std::vector<Id> outputs = plan.outputs(part);
+    for (const Id id : outputs) ++readers[id];
+    for (const Id id : needed(plan.graph, outputs)) {
+      if (seen[id]) continue;
+      seen[id] = true;
+      for (const Id arg : plan.graph[id].operands()) ++readers[arg];
+    }
+  }
+  return readers;
 }
 
 Signal Mapping::in(Id id, const Format& format) { return converted(signal(id), format); }
@@ -51,17 +141,15 @@ Signal Mapping::in(Id id, const Format& format) { return converted(signal(id), f
 Signal Mapping::made(Id id) {
   const Vertex& v = plan_.graph[id];
   const Format& y = precision_.formats[id];
-  if (const auto found = fused_.find(id); found != fused_.end())
-    return sketch_.op(found->second.unit, y, signal(found->second.source));
+  if (fused_.contains(id)) return tabulated(id);
   switch (v.op) {
     case Op::kConstant:
       return sketch_.constant(y, v.value);
     case Op::kAdd:
-      return sum(v, y, false);
     case Op::kSubtract:
-      return sum(v, y, true);
+      return sum(id);
     case Op::kMultiply:
-      return product(v, y);
+      return product(id);
     case Op::kNegate:
       return sketch_.difference(sketch_.constant({true, 1, 0}, 0), signal(v.args[0]), y);
     case Op::kAbs: {
@@ -80,25 +168,60 @@ Signal Mapping::made(Id id) {
   }
 }
 
-Signal Mapping::sum(const Vertex& v, const Format& y, bool subtract) {
-  const Signal a = signal(v.args[0]);
-  const Signal b = signal(v.args[1]);
-  const int fraction = std::max(a.format.fraction, b.format.fraction);
-  const auto at = [&](Word end, const Format& f) { return static_cast<WideWord>(end) << (fraction - f.fraction); };
-  const WideWord low = at(subtract ? b.format.greatest() : b.format.least(), b.format);
-  const WideWord high = at(subtract ? b.format.least() : b.format.greatest(), b.format);
-  const WideWord least = at(a.format.least(), a.format) + (subtract ? -low : low);
-  const WideWord greatest = at(a.format.greatest(), a.format) + (subtract ? -high : high);
-  return sketch_.op(Sum{a.format, b.format, y, subtract, finish_of(least, greatest, fraction, y)}, y, a, b);
+Signal Mapping::tabulated(Id id) {
+  const Fused& one = fused_.at(id);
+  const Format& y = precision_.formats[id];
+  const auto partner = partner_of(id);
+  if (!partner) return sketch_.op(one.unit, y, signal(one.source));
+  const LookupPair both{*one.unit.lookup()};
+  const Signal first = sketch_.op(both, y, signal(one.source), signal(fused_.at(*partner).source));
+  signals_[*partner] = {{first.wire.node, 1}, y};
+  return first;
 }
 
-Signal Mapping::product(const Vertex& v, const Format& y) {
+/// A later vertex that can be read from the same block of memory at the same time.
+std::optional<Id> Mapping::partner_of(Id id) const {
+  const Fused& one = fused_.at(id);
+  const Lookup* table = one.unit.lookup();
+  if (table == nullptr || !table->in_block()) return {};
+  for (const auto& [other, two] : fused_)
+    if (other > id && wanted_[other] && !signals_.contains(other) && signals_.contains(two.source) &&
+        sketch_.ready(signal(two.source)) == sketch_.ready(signal(one.source)) && two.unit.lookup() != nullptr &&
+        *two.unit.lookup() == *table)
+      return other;
+  return {};
+}
+
+Signal Mapping::sum(Id id) {
+  const Format& y = precision_.formats[id];
+  std::vector<Addend> parts;
+  for (const Term& term : terms(id)) {
+    const Signal part = signal(term.id);
+    parts.push_back({part, term.negative, sketch_.ready(part)});
+  }
+  while (parts.size() > 1) {
+    std::stable_sort(parts.begin(), parts.end(), [](const Addend& a, const Addend& b) { return a.ready > b.ready; });
+    const Addend first = parts.back();
+    parts.pop_back();
+    const Addend second = parts.back();
+    const bool last = parts.size() == 1;
+    const Format whole = format_of_part(first, second, y.fraction + kSumGuard);
+    parts.back() = added(sketch_, first, second, last ? roomy(id, whole.integer, whole.fraction, 1) : whole);
+  }
+  return parts.front().signal;
+}
+
+Signal Mapping::product(Id id) {
+  const Vertex& v = plan_.graph[id];
+  const Format& y = precision_.formats[id];
   for (const std::size_t k : {0U, 1U})
     if (plan_.graph.is_constant(v.args[k])) return by_constant(signal(v.args[1 - k]), v.args[k], y);
   const Signal a = signal(v.args[0]);
   const Signal b = signal(v.args[1]);
+  const bool both_signed = a.format.sign && b.format.sign;
+  const Format whole = roomy(id, a.format.integer + b.format.integer + (both_signed ? 1 : 0), y.fraction, 3);
   const bool swapped = a.format.width() < b.format.width();  // the wider operand first, as DSP blocks have them
-  return swapped ? sketch_.product(b, a, y) : sketch_.product(a, b, y);
+  return swapped ? sketch_.product(b, a, whole) : sketch_.product(a, b, whole);
 }
 
 Signal Mapping::by_constant(const Signal& a, Id constant, const Format& y) {
@@ -114,9 +237,12 @@ Signal Mapping::by_constant(const Signal& a, Id constant, const Format& y) {
 }
 
 Signal Mapping::selection(const Vertex& v, const Format& y) {
+  if (plan_.seen_bit(v.args[0]) >= 0) {
+    const Signal term = signal(v.args[3]);
+    return sketch_.select(signal(v.args[0]), term, sketch_.constant(term.format, 0), false);
+  }
   const Signal a = converted(signal(v.args[2]), y);
   const Signal b = converted(signal(v.args[3]), y);
-  if (plan_.seen_bit(v.args[0]) >= 0) return sketch_.select(signal(v.args[0]), b, a);
   return sketch_.select(sketch_.less(signal(v.args[0]), signal(v.args[1])), a, b);
 }
 

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "mote/hardware/datapath/fusion.hpp"
 #include "mote/hardware/datapath/plan.hpp"
@@ -30,7 +31,8 @@ class Functions {
   std::map<std::string, Compound> compounds_;
 };
 
-/// Puts vertices into a sketch. Inputs are given first; results round to nearest and saturate.
+/// Puts vertices into a sketch. Inputs are given first; results round to nearest and saturate. A sum of sums is one
+/// sum: its terms are added as they come.
 class Mapping {
  public:
   Mapping(const Plan& plan, const graph::Recorded& recorded, const Precision& precision,
@@ -40,7 +42,9 @@ class Mapping {
         precision_(precision),
         fused_(fused),
         sketch_(sketch),
-        functions_(functions) {}
+        functions_(functions),
+        readers_(readers_of(plan)),
+        room_(room_of(plan, fused)) {}
 
   /// What an input or a field is; it is converted to the vertex's format.
   void give(graph::Id id, const Signal& signal);
@@ -52,10 +56,21 @@ class Mapping {
   Signal in(graph::Id id, const Format& format);
 
  private:
+  /// A term of a sum.
+  struct Term {
+    graph::Id id;
+    bool negative;
+  };
+
   Signal signal(graph::Id id) const { return signals_.at(id); }
+  bool within_sum(graph::Id id) const;
+  std::vector<Term> terms(graph::Id sum) const;
+  std::vector<graph::Id> operands(graph::Id id) const;
   Signal made(graph::Id id);
-  Signal sum(const graph::Vertex& v, const Format& y, bool subtract);
-  Signal product(const graph::Vertex& v, const Format& y);
+  Signal tabulated(graph::Id id);
+  std::optional<graph::Id> partner_of(graph::Id id) const;
+  Signal sum(graph::Id id);
+  Signal product(graph::Id id);
   Signal by_constant(const Signal& a, graph::Id constant, const Format& y);
   Signal selection(const graph::Vertex& v, const Format& y);
   Signal function(graph::Id id, const Format& y);
@@ -67,6 +82,9 @@ class Mapping {
   Signal unsigned_of(const Signal& a);
   Signal converted(const Signal& a, const Format& y) { return a.format == y ? a : sketch_.convert(a, y); }
   [[noreturn]] void refuse(graph::Id id) const;
+  Format roomy(graph::Id id, int integer, int fraction, int more) const;
+  static std::vector<unsigned> readers_of(const Plan& plan);
+  static std::vector<int> room_of(const Plan& plan, const std::map<graph::Id, Fused>& fused);
 
   const Plan& plan_;
   const graph::Recorded& recorded_;
@@ -74,6 +92,9 @@ class Mapping {
   const std::map<graph::Id, Fused>& fused_;
   Sketch& sketch_;
   Functions& functions_;
+  std::vector<unsigned> readers_;  ///< by vertex: how often others and results read it
+  std::vector<int> room_;          ///< by vertex: the bits that it may grow to where that is cheaper
+  std::vector<bool> wanted_;       ///< by vertex: to be computed
   std::map<graph::Id, Signal> signals_;
   std::map<std::string, Pair> pairs_;
 };

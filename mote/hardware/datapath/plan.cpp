@@ -27,6 +27,17 @@ class Weigher {
   Weigher(const graph::Recorded& recorded, Graph& graph, Plan& plan)
       : recorded_(recorded), graph_(graph), plan_(plan), host_(of_the_host(graph)) {}
 
+  /// The log weight of a pair of state and parent, and the move that proposes it: the model's own where something is
+  /// unseen.
+  Id with_proposal(Id log_weight, std::vector<Id>& next) {
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t j = 0; j < plan_.columns; ++j)
+      if (!recorded_.columns[j].input) all.push_back(j);
+    const Id ratio = masked(times(*recorded_.log_ratio, std::numbers::log2e), all);
+    for (std::size_t d = 0; d < next.size(); ++d) next[d] = masked(recorded_.proposed[d], all, next[d]);
+    return add(log_weight, ratio);
+  }
+
   Id log_weight(Id log_likelihood) {
     collect(log_likelihood, std::numbers::log2e);
     std::optional<Id> plus;
@@ -40,8 +51,9 @@ class Weigher {
         return same;
       });
       const bool within = squares(group);
-      const Id sum = within ? sum_of(group, std::sqrt(std::abs(factor))) : times(sum_of(group, 1), factor);
-      std::optional<Id>& side = within && factor < 0 ? minus : plus;
+      const bool turned = within && factor < 0 && differences(group);
+      const Id sum = within ? sum_of(group, std::sqrt(std::abs(factor)), turned) : times(sum_of(group, 1), factor);
+      std::optional<Id>& side = within && factor < 0 && !turned ? minus : plus;
       side = side ? add(*side, sum) : sum;
     }
     if (!minus) return plus ? *plus : graph_.constant(0);
@@ -93,12 +105,14 @@ class Weigher {
 
   /// term where everything it reads was seen, else 0.
   Id masked(Id term, const std::vector<std::uint32_t>& needs) {
-    if (needs.empty()) return term;
+    return needs.empty() ? term : masked(term, needs, graph_.constant(0));
+  }
+  Id masked(Id term, const std::vector<std::uint32_t>& needs, Id otherwise) {
     auto place = std::find(plan_.seen.begin(), plan_.seen.end(), needs);
     if (place == plan_.seen.end()) place = plan_.seen.insert(place, needs);
     const auto bit = static_cast<std::uint32_t>(place - plan_.seen.begin());
     const Id seen = graph_.input(Role::kColumn, plan_.columns + bit);
-    return graph_.operation(Op::kSelect, {seen, graph_.constant(0.5), graph_.constant(0), term});
+    return graph_.operation(Op::kSelect, {seen, graph_.constant(0.5), otherwise, term});
   }
 
   /// Whether all terms are squares of what takes up a factor.
@@ -107,14 +121,21 @@ class Weigher {
       return graph_[id].op == Op::kMultiply && graph_[id].args[0] == graph_[id].args[1] && scales(graph_[id].args[0]);
     });
   }
-  /// The sum of the terms, each only where it was seen; squares of `root` times their sides if root is not 1.
-  Id sum_of(const std::vector<Id>& terms, double root) {
+  /// Whether all terms are squares of differences, whose negatives (a - b) (b - a) cost nothing.
+  bool differences(const std::vector<Id>& terms) const {
+    return std::all_of(terms.begin(), terms.end(),
+                       [&](Id id) { return graph_[graph_[id].args[0]].op == Op::kSubtract; });
+  }
+  /// The sum of the terms, each only where it was seen; squares of `root` times their sides, negative ones if
+  /// `turned`.
+  Id sum_of(const std::vector<Id>& terms, double root, bool turned = false) {
     std::optional<Id> sum;
     for (const Id term : terms) {
       Id inner = term;
-      if (root != 1) {
+      if (root != 1 || turned) {
         const Id side = scaled(graph_[term].args[0], root);
-        inner = graph_.operation(Op::kMultiply, {side, side});
+        const Vertex v = graph_[side];
+        inner = graph_.operation(Op::kMultiply, {side, turned ? graph_.operation(v.op, {v.args[1], v.args[0]}) : side});
       }
       const Id part = masked(inner, needs(term));
       sum = sum ? add(*sum, part) : part;
@@ -204,8 +225,12 @@ Plan plan_of(const graph::Recorded& recorded) {
   plan.columns = static_cast<std::uint32_t>(recorded.columns.size());
   Graph graph = recorded.graph;
   std::vector<Id> outputs = recorded.initial;
-  outputs.insert(outputs.end(), recorded.next.begin(), recorded.next.end());
-  outputs.push_back(Weigher(recorded, graph, plan).log_weight(recorded.log_likelihood));
+  std::vector<Id> next = recorded.next;
+  Weigher weigher(recorded, graph, plan);
+  Id log_weight = weigher.log_weight(recorded.log_likelihood);
+  if (recorded.log_ratio) log_weight = weigher.with_proposal(log_weight, next);
+  outputs.insert(outputs.end(), next.begin(), next.end());
+  outputs.push_back(log_weight);
   graph::Outputs simple = graph::simplified(graph, outputs, graph::Identities::kRounding);
   const auto dims = static_cast<std::ptrdiff_t>(recorded.states.size());
   plan.graph = std::move(simple.graph);

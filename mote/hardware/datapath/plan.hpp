@@ -13,8 +13,9 @@ namespace mote::hardware {
 ///
 ///   log2 p(y | x) = constant + log_weight,   log_weight = sum of groups,  group = c sum_k [k seen] term_k
 ///
-/// Terms that the state does not enter are left out. Numbers that depend on the row and on t alone are computed by the
-/// host, once a step: `fields`.
+/// A recorded proposal takes the place of the model's move, and log2 p(x | before) / g(x | before, y) is added to the
+/// weight, where all observations are seen. Terms that the state does not enter are left out. Numbers that depend on
+/// the row and on t alone are computed by the host, once a step: `fields`.
 struct Plan {
   graph::Graph graph;
   std::vector<graph::Id> initial, next;          ///< (D,)

@@ -137,7 +137,8 @@ class Analysis {
       for (const Id id : tape.order()) squares[id].add(tape.slope(id) / faint);
     }
     for (const Id id : tape.order()) {
-      const bool state = plan_.graph[id].op == Op::kInput && plan_.graph[id].role == Role::kState;
+      const Role role = plan_.graph[id].role;
+      const bool state = plan_.graph[id].op == Op::kInput && (role == Role::kState || role == Role::kBefore);
       need(id, std::sqrt(squares[id].mean()) / (state ? kStateLogStep : kLogStep));
     }
   }

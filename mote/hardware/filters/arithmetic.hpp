@@ -24,6 +24,7 @@ struct Formats {
   unsigned weight_bits = 24;  ///< of a weight at the running scale
   unsigned extra_bits = 8;    ///< fraction bits of a mean beyond those of the state
   unsigned propose_latency = 4, weigh_latency = 4;
+  unsigned carried = 0;      ///< words beside the state's that a proposal brings to be weighed, of value_bits each
   unsigned count_bits = 10;  ///< At of a circuit that resamples: N <= 2^count_bits, from 6
 };
 
@@ -32,7 +33,8 @@ struct Formats {
 ///   propose(t, observed, parents, words, states): states = p(. | parents) by words; at t = 1 parents come from the
 ///   prior weigh(t, observed, states, log_weights): log2 p(y | state) in units of 2^-10, saturated to log_bits
 ///
-/// shape   parents, states: `dims` columns of n; words: `draw_words` columns of n; log_weights: n
+/// shape   parents: `dims` columns of n; states: `dims` and `carried` of n; words: `draw_words` columns of n;
+///         log_weights: n
 struct Arithmetic {
   Formats formats;
   std::function<void(unsigned, Observed, const Particles&, const WordColumns&, Particles&)> propose;

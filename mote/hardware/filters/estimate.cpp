@@ -17,8 +17,9 @@ std::uint64_t sum_of(std::span<const ScaledWeight> weights) {
   return sum;
 }
 
-std::vector<std::int64_t> weighted_means(const Particles& states, std::span<const ScaledWeight> weights,
-                                         std::uint64_t divisor, const Formats& formats) {
+std::vector<std::int64_t> weighted_means(std::span<const std::vector<std::int64_t>> states,
+                                         std::span<const ScaledWeight> weights, std::uint64_t divisor,
+                                         const Formats& formats) {
   __extension__ using Wide = __int128;
   const unsigned dropped = std::min(8U, formats.value_bits - 1);
   const std::int64_t half = std::int64_t{1} << (dropped - 1);

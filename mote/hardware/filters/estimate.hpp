@@ -34,10 +34,10 @@ std::uint64_t sum_of(std::span<const ScaledWeight> weights);
 /// Products are rounded to 8 bits less (those of narrow states to one bit less than a state has), halves up.
 ///
 /// shape   states: dims columns of n, value_bits each; weights: (n); means: (dims), extra_bits fraction bits more than
-/// the
-///         states
-std::vector<std::int64_t> weighted_means(const Particles& states, std::span<const ScaledWeight> weights,
-                                         std::uint64_t divisor, const Formats& formats);
+///         the states
+std::vector<std::int64_t> weighted_means(std::span<const std::vector<std::int64_t>> states,
+                                         std::span<const ScaledWeight> weights, std::uint64_t divisor,
+                                         const Formats& formats);
 
 /// Stages by which a row of several lanes is added up, a power of two of them.
 constexpr std::uint64_t row_cycles(std::size_t lanes) { return static_cast<std::uint64_t>(std::countr_zero(lanes)); }

@@ -1,6 +1,7 @@
 #include "mote/hardware/filters/imh.hpp"
 
 #include <bit>
+#include <span>
 #include <utility>
 
 namespace mote::hardware {
@@ -18,11 +19,11 @@ void Imh::start(const ImhRegisters& registers) {
   registers_ = registers;
   t_ = 0;
   pace_ = Pace{};
-  const std::size_t n = std::size_t{registers.proposals(lanes_.count)} * lanes_.count;
+  const std::size_t n = std::size_t{lanes_.rows(registers)} * lanes_.count;
   const Formats& f = arithmetic_.formats;
   set_.assign(f.dims, std::vector<std::int64_t>(registers.particles));
   parents_.assign(f.dims, std::vector<std::int64_t>(n));
-  proposals_ = parents_;
+  proposals_.assign(f.dims + f.carried, std::vector<std::int64_t>(n));
   words_.assign(f.draw_words, std::vector<std::uint32_t>(n));
   log_weights_.assign(n, 0);
   weights_.assign(n, {});
@@ -34,7 +35,7 @@ Estimate Imh::step(Observed observed) {
   choose_parents();
   propose(observed);
   std::uint64_t accepted = 0;
-  for (unsigned lane = 0; lane < lanes_.count; ++lane) accepted += decide(lane);
+  for (unsigned chain = 0; chain < lanes_.chains(); ++chain) accepted += decide(chain);
   for (std::size_t d = 0; d < set_.size(); ++d)
     for (std::size_t k = 0; k < kept_.size(); ++k) set_[d][k] = proposals_[d][kept_[k]];
   keep_time();
@@ -43,12 +44,20 @@ Estimate Imh::step(Observed observed) {
   return estimate;
 }
 
+/// Slots that the parents of a row are chosen among.
+std::uint32_t Imh::slots_of_row(std::size_t row) const {
+  const std::uint32_t all = registers_.particles / lanes_.count;
+  if (!lanes_.overlapped) return all;
+  const std::uint64_t later = ImhLatency(arithmetic_.formats, lanes_).restricted(all);
+  return all - static_cast<std::uint32_t>(later - std::min<std::uint64_t>(later, row));
+}
+
 void Imh::choose_parents() {
   const unsigned lanes = lanes_.count;
-  const std::uint32_t slots = registers_.particles / lanes;
   const int low = 8 - std::countr_zero(lanes);
   for (std::size_t row = 0; row < log_weights_.size(); row += lanes) {
     const std::uint32_t turn = parent_words_[0].word() >> low;
+    const std::uint32_t slots = slots_of_row(row / lanes);
     for (unsigned lane = 0; lane < lanes; ++lane) {
       const std::uint32_t word = parent_words_[lane].next();
       const std::uint32_t chain = lanes_.parents == Parents::kPrivate  ? lane
@@ -69,14 +78,14 @@ void Imh::propose(Observed observed) {
   arithmetic_.weigh(t_, observed, proposals_, log_weights_);
 }
 
-/// Runs the chain of a lane; says how often it moved.
-std::uint64_t Imh::decide(unsigned lane) {
+/// Runs a chain; says how often it moved.
+std::uint64_t Imh::decide(unsigned chain) {
   const std::size_t dropped = log_weights_.size() - kept_.size();
-  std::uint32_t current = lane;
+  std::uint32_t current = chain;
   std::uint64_t accepted = 0;
-  for (std::uint32_t j = lane; j < log_weights_.size(); j += lanes_.count) {
-    const std::int64_t drop = log_drop(accept_words_[lane].next());
-    if (j > lane && log_weights_[current] <= log_weights_[j] + drop) {
+  for (std::uint32_t j = chain; j < log_weights_.size(); j += lanes_.chains()) {
+    const std::int64_t drop = log_drop(accept_words_[j % lanes_.count].next());
+    if (j > chain && log_weights_[current] <= log_weights_[j] + drop) {
       current = j;
       ++accepted;
     }
@@ -89,18 +98,22 @@ Estimate Imh::infer() {
   const Formats& f = arithmetic_.formats;
   scale_weights(log_weights_, lanes_.count, f.weight_bits, weights_);
   const std::uint64_t sum = sum_of(weights_);
+  const std::span<const std::vector<std::int64_t>> states = std::span(proposals_).first(f.dims);
   const std::int64_t scale = weights_.back().scale;
-  if (!registers_.chain_mean) return {weighted_means(proposals_, weights_, sum, f), sum, scale, 0};
+  if (!registers_.chain_mean) return {weighted_means(states, weights_, sum, f), sum, scale, 0};
   const std::vector<ScaledWeight> equal(kept_.size(), {1 << 16, 0, 0});
   return {weighted_means(set_, equal, sum_of(equal), f), sum, scale, 0};
 }
 
 void Imh::keep_time() {
+  const ImhLatency latency(arithmetic_.formats, lanes_);
   pace_.begin();
-  const std::uint64_t decided = pace_.begun() + ImhLatency(arithmetic_.formats).step(registers_, lanes_.count);
-  pace_.free_from(decided);
-  pace_.sums_stand(decided + 3 + weight_cycles(lanes_.count) + row_cycles(lanes_.count),
-                   division_cycles(arithmetic_.formats));
+  pace_.free_from(pace_.begun() + latency.step(registers_, lanes_));
+  // All is in when the last weight is, and the last state that was kept.
+  const std::uint64_t log_weight = pace_.begun() + latency.decided(registers_, lanes_) - lanes_.chain_latency();
+  const std::uint64_t done =
+      log_weight + std::max<std::uint64_t>(weight_cycles(lanes_.count), lanes_.chain_latency() + 1);
+  pace_.sums_stand(done + 4 + row_cycles(lanes_.count), division_cycles(arithmetic_.formats));
 }
 
 }  // namespace mote::hardware

@@ -1,6 +1,7 @@
 #pragma once
 /// The golden model of rtl/filters/mote_imh.sv: the same integers, and the same cycles.
 
+#include <algorithm>
 #include <cstdint>
 
 #include "mote/hardware/filters/arithmetic.hpp"
@@ -16,9 +17,6 @@ struct ImhRegisters {
   std::uint32_t draws = 1000;      ///< Q >= N
   std::uint32_t burn_in = 0;       ///< N_b
   bool chain_mean = false;         ///< the mean over the kept states instead of all weighted proposals
-
-  /// Of each of `lanes` chains.
-  std::uint32_t proposals(unsigned lanes = 1) const { return draws / lanes + burn_in; }
 };
 
 /// Where the parents of a lane come from; the numbers are those of mote_parents.
@@ -28,20 +26,47 @@ enum class Parents {
   kShared,   ///< all chains', each lane by itself
 };
 
-/// Copies of the chain that run in lockstep, a power of two of them, at most 256.
+/// Pipelines abreast, a power of two of them, at most 256: each before a copy of the chain, or all before one.
 struct ImhLanes {
   unsigned count = 1;
   Parents parents = Parents::kBanked;
+  bool folded = false;      ///< one chain, which visits a row of proposals lane by lane
+  bool overlapped = false;  ///< a step begins while the one before is still decided on
+
+  /// Rows of a step, a proposal a lane: Q/lanes + N_b; of one chain Q/lanes + N_b/lanes, the latter rounded up.
+  std::uint32_t rows(const ImhRegisters& r) const {
+    return r.draws / count + (folded ? (r.burn_in + count - 1) / count : r.burn_in);
+  }
+  /// That each need a first proposal.
+  std::uint32_t chains() const { return folded ? 1 : count; }
+  /// Cycles from the log weights of a row to what is decided on it.
+  std::uint64_t chain_latency() const { return folded ? count + 2 : 1; }
 };
 
-/// Cycles of a step, K_p + K_w of them to fill the pipelines:  (N_b + Q/lanes - 1) + K_p + K_w + 1.
+/// Cycles of a step of r rows, K_p + K_w of them to fill the pipelines:  (r - 1) + K_p + K_w + 1.
 ///
-/// source  IMH-HW section 5.3 with T_p = T_w = T_D = 1
+/// Overlapped, the last of them are those of the next step: its row j has its parents among the first min(n, n - H + j)
+/// of n slots, which have emerged by then.
+///
+///   step = r + W - H,   W = K_p + K_w - 2,   H = min(W, floor(n / 2)),   n = N / lanes
+///
+/// source  IMH-HW section 5.3 with T_p = T_w = T_D = 1; lanes before one chain: T_D = 1/lanes
 struct ImhLatency {
   std::uint64_t propose, weigh;  ///< K_p and K_w
-  explicit ImhLatency(const Formats& f) : propose(4 + f.propose_latency), weigh(f.weigh_latency + 1) {}
-  std::uint64_t step(const ImhRegisters& r, unsigned lanes = 1) const {
-    return r.proposals(lanes) - 1 + propose + weigh + 1;
+  explicit ImhLatency(const Formats& f, const ImhLanes& lanes = {})
+      : propose(4 + f.propose_latency), weigh(f.weigh_latency + lanes.chain_latency()) {}
+  /// From the beginning of a step to its last decision.
+  std::uint64_t decided(const ImhRegisters& r, const ImhLanes& lanes = {}) const {
+    return lanes.rows(r) - 1 + propose + weigh + 1;
+  }
+  /// H: rows of a step that choose among fewer slots than all.
+  std::uint64_t restricted(std::uint32_t slots) const {
+    return std::min(propose + weigh - 2, std::uint64_t{slots} / 2);
+  }
+  /// From the beginning of a step to that of the next.
+  std::uint64_t step(const ImhRegisters& r, const ImhLanes& lanes = {}) const {
+    if (!lanes.overlapped) return decided(r, lanes);
+    return lanes.rows(r) + propose + weigh - 2 - restricted(r.particles / lanes.count);
   }
 };
 
@@ -50,6 +75,8 @@ struct ImhLatency {
 ///   j = 0 .. Q / lanes + N_b - 1 in every lane:  slot = floor(u N / (2^24 lanes)),  x' = propose(x_slot),
 ///   lw' = weigh(x');  accept  iff  j = 0  or  lw <= lw' + drop;   the last N / lanes states of each chain are the next
 ///   parents
+///
+/// One chain before several lanes (folded) goes through row after row, lane after lane, and keeps its last N states.
 ///
 /// Words go on from run to run, as in the circuit, which only a reset takes back.
 ///
@@ -73,7 +100,8 @@ class Imh {
  private:
   void choose_parents();
   void propose(Observed observed);
-  std::uint64_t decide(unsigned lane);
+  std::uint64_t decide(unsigned chain);
+  std::uint32_t slots_of_row(std::size_t row) const;
   Estimate infer();
   void keep_time();
 

@@ -22,7 +22,7 @@ TEST(Imh, StepsByTheLatencyLaw) {
     filter.step(kObserved);
     const std::uint64_t begun = filter.begun();
     filter.step(kObserved);
-    const double law = sequential_time(r.proposals(), {1, 1, 1}, {8, 5});
+    const double law = sequential_time(r.draws + r.burn_in, {1, 1, 1}, {8, 5});
     EXPECT_EQ(static_cast<double>(filter.begun() - begun), law);
   }
 }

@@ -29,7 +29,13 @@ class GoldenOf final : public Golden {
 };
 
 std::unique_ptr<Golden> golden_chains(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity& capacity) {
-  return std::make_unique<GoldenOf<Imh>>(arithmetic, seed, 0, ImhLanes{capacity.lanes, Parents::kBanked});
+  return std::make_unique<GoldenOf<Imh>>(arithmetic, seed, 0,
+                                         ImhLanes{capacity.lanes, Parents::kBanked, false, capacity.overlapped});
+}
+
+std::unique_ptr<Golden> golden_chain(const Arithmetic& arithmetic, std::uint64_t seed, const Capacity& capacity) {
+  return std::make_unique<GoldenOf<Imh>>(arithmetic, seed, 0,
+                                         ImhLanes{capacity.lanes, Parents::kBanked, true, capacity.overlapped});
 }
 
 Arithmetic counting(Arithmetic arithmetic, const Capacity& capacity) {
@@ -58,7 +64,13 @@ unsigned bits_for(std::uint32_t count) { return static_cast<unsigned>(ceil_log2(
 /// Chains keep `most` particles of up to 2^at proposals.
 Capacity chain_capacity(const RunRegisters& r, unsigned lanes) {
   const std::uint32_t most = std::max(2U, std::bit_ceil(r.particles));
-  return {std::max(bits_for(lanes * r.proposals(lanes)), bits_for(most)), most, lanes};
+  return {std::max(bits_for(r.draws + lanes * r.burn_in), bits_for(most)), most, lanes};
+}
+
+/// One chain before all lanes burns in once, by whole rows.
+Capacity chain_of_pairs_capacity(const RunRegisters& r, unsigned lanes) {
+  const std::uint32_t most = std::max(2U, std::bit_ceil(r.particles));
+  return {std::max(bits_for(r.draws + (r.burn_in + lanes - 1) / lanes * lanes), bits_for(most)), most, lanes};
 }
 
 Capacity cloud_capacity(const RunRegisters& r, unsigned lanes) {
@@ -67,7 +79,14 @@ Capacity cloud_capacity(const RunRegisters& r, unsigned lanes) {
 }
 
 std::vector<Parameter> chain_parameters(const Capacity& c) {
-  return {parameter("Lanes", static_cast<int>(c.lanes)), parameter("Most", static_cast<int>(c.most))};
+  return {parameter("Lanes", static_cast<int>(c.lanes)), parameter("Most", static_cast<int>(c.most)),
+          parameter("Overlapped", static_cast<int>(c.overlapped))};
+}
+
+std::vector<Parameter> chain_of_pairs_parameters(const Capacity& c) {
+  std::vector<Parameter> all = chain_parameters(c);
+  all.push_back(parameter("Folded", 1));
+  return all;
 }
 
 std::vector<Parameter> cloud_parameters(const Capacity& c) { return {parameter("Lanes", static_cast<int>(c.lanes))}; }
@@ -82,6 +101,12 @@ std::string chain_range(const Capacity& c) {
   const std::string burn_in = c.lanes == 1 ? "burn_in_i" : std::to_string(c.lanes) + " burn_in_i";
   return "1 <= n_i <= " + std::to_string(c.most) + ", n_i <= draws_i, draws_i + " + burn_in +
          " <= " + std::to_string(1U << c.at) + of_lanes(c, "n_i and draws_i");
+}
+
+std::string chain_of_pairs_range(const Capacity& c) {
+  return "1 <= n_i <= " + std::to_string(c.most) +
+         ", n_i <= draws_i, draws_i + burn_in_i <= " + std::to_string(1U << c.at) + of_lanes(c, "n_i and draws_i") +
+         ", burn_in_i goes up to one";
 }
 
 std::string cloud_range(const Capacity& c) { return "1 <= n_i <= " + std::to_string(c.most) + of_lanes(c, "n_i"); }
@@ -114,8 +139,41 @@ const std::vector<Architecture>& architectures() {
        chain_parameters,
        chain_range,
        chain_capacity,
+<<<<<<< HEAD
+       golden_chains},
+      {"imh-chain",
+       "independent Metropolis-Hastings, one chain that pairs of proposer and weigher feed a row a cycle",
+       "mote_imh",
+       "mote/hardware/filters/imh.hpp",
+       {kParticles, kDraws, kBurnIn, kChainMean},
+       8,
+       true,
+       6,
+       chain_of_pairs_parameters,
+       chain_of_pairs_range,
+       chain_of_pairs_capacity,
+       golden_chain,
+       true,
+       1},
+      {"auxiliary",
+       "auxiliary-variable independent Metropolis-Hastings: one chain over pairs of state and parent, any proposal",
+       "mote_imh",
+       "mote/hardware/filters/imh.hpp",
+       {kParticles, kDraws, kBurnIn, kChainMean},
+       1,
+       true,
+       5,
+       chain_parameters,
+       chain_range,
+       chain_capacity,
+       golden_chains,
+       false,
+       0,
+       true},
+=======
        golden_chains,
        "imh.h"},
+>>>>>>> 77f101568ed9e905129aa1acf05cdbe7774926d6
       {"sisr",
        "bootstrap filter, one lane, systematic resampling of a step beside the next one's proposals",
        "mote_sisr",

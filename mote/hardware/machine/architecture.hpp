@@ -29,6 +29,7 @@ struct Capacity {
   unsigned at = 10;           ///< counts go up to 2^at
   std::uint32_t most = 1024;  ///< particles; a power of two
   unsigned lanes = 1;         ///< side by side, each with its own part of the particles
+  bool overlapped = false;    ///< a step of chains begins while the one before is still decided on
 
   unsigned slot_bits() const { return static_cast<unsigned>(ceil_log2(std::max(2U, most / lanes))); }
 };
@@ -57,12 +58,23 @@ struct Architecture {
   std::vector<Parameter> (*parameters)(const Capacity&);  ///< that other kinds do not have
   std::string (*range)(const Capacity&);                  ///< of its registers, for the data sheet
   Capacity (*capacity)(const RunRegisters& most, unsigned lanes);
-  /// Proposals of a step, of all lanes.
-  std::uint64_t offered(const RunRegisters& r, unsigned lanes) const {
-    return chain ? std::uint64_t{lanes} * r.proposals(lanes) : r.particles;
-  }
   std::unique_ptr<Golden> (*golden)(const Arithmetic&, std::uint64_t seed, const Capacity&);
+<<<<<<< HEAD
+  bool folded = false;         ///< one chain before all lanes
+  unsigned stages_a_lane = 0;  ///< that each lane adds to the stages
+  bool pairs = false;          ///< weighs pairs of state and parent, so that any proposal will do
+
+  /// How its chains are fed.
+  ImhLanes fed(const Capacity& c) const { return {c.lanes, Parents::kBanked, folded, c.overlapped}; }
+  /// Proposals of a step, of all lanes.
+  std::uint64_t offered(const RunRegisters& r, const Capacity& c) const {
+    return chain ? std::uint64_t{c.lanes} * fed(c).rows(r) : r.particles;
+  }
+  /// Of those, the proposals that chains may refuse: all but each one's first.
+  std::uint64_t decided(const RunRegisters& r, const Capacity& c) const { return offered(r, c) - fed(c).chains(); }
+=======
   std::string_view c_filter = {};  ///< its golden model in C: a file of machine/golden
+>>>>>>> 77f101568ed9e905129aa1acf05cdbe7774926d6
 };
 
 /// All kinds, the simplest first.

@@ -27,12 +27,13 @@ Circuit filter_alone(const Machine& machine) {
   const int at = as_int(machine.capacity().at);
   const int state = machine.particle_bits();
   const int lanes = as_int(machine.capacity().lanes);
+  const int pair = state + lanes * as_int(f.carried * f.value_bits);
   Circuit circuit{std::string(architecture.module), machine.parameters(), {{"start_i"}, {"steps_i", 16}}, {}, 0, true,
                   machine.filter_tables()};
   for (const Register& one : architecture.registers)
     circuit.inputs.push_back({std::string(one.name) + "_i", one.flag ? 1 : at + 1});
   for (const Port& port :
-       {Port{"obs_valid_i"}, Port{"obs_i", machine.model().observed_bits()}, Port{"propose_state_i", state},
+       {Port{"obs_valid_i"}, Port{"obs_i", machine.model().observed_bits()}, Port{"propose_state_i", pair},
         Port{"weigh_log_i", lanes * as_int(f.log_bits)}, Port{"est_ready_i"}})
     circuit.inputs.push_back(port);
   circuit.outputs = {{"busy_o"},

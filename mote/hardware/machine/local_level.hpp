@@ -53,7 +53,8 @@ inline ModelCircuit local_level_circuit() {
       "local_level", propose.circuit(), weigh.circuit(), {}, {}, {{"level", kLevel}}, {{"y", kLevel}}, {}};
   model.propose_connections = {{"clk_i", "clk_i"},          {"first_i", "t == 16'd1"},    {"state_i", "parent"},
                                {"word0_i", "words[0+:32]"}, {"word1_i", "words[32+:32]"}, {"state_o", "proposed"}};
-  model.weigh_connections = {{"clk_i", "clk_i"}, {"y_i", "obs"}, {"state_i", "to_weigh"}, {"log_o", "log_weight"}};
+  model.weigh_connections = {
+      {"clk_i", "clk_i"}, {"y_i", "weigh_obs"}, {"state_i", "to_weigh"}, {"log_o", "log_weight"}};
   Formats& f = model.arithmetic.formats;
   f.draw_words = 2;
   f.propose_latency = static_cast<unsigned>(model.propose.latency);

@@ -43,6 +43,8 @@ Memory table_of(const char* parameter, int width, const Table& table) {
 
 std::string parameter_lines(std::vector<Parameter> parameters, const std::vector<Memory>& tables,
                             const std::string& folder) {
+  for (Parameter& one : parameters)
+    if (one.name == "Seed") one.value = "Seed";  // the circuit's own
   for (const Memory& table : tables)
     parameters.push_back({table.parameter, "\"" + folder + memory_file(kFilterInstance, table) + "\""});
   std::string text;
@@ -111,18 +113,30 @@ void refuse_wide_sums(const Formats& f, const Capacity& capacity) {
 }  // namespace
 
 Machine::Machine(ModelCircuit model, const Architecture& architecture, const RunRegisters& most, std::uint64_t seed,
+<<<<<<< HEAD
+                 unsigned lanes, bool overlapped)
+=======
                  unsigned lanes, RegisterAccess access)
+>>>>>>> 77f101568ed9e905129aa1acf05cdbe7774926d6
     : name_("mote_" + model.name + "_" + std::string(architecture.name)),
       model_(std::move(model)),
       architecture_(&architecture),
       capacity_(architecture.capacity(most, lanes)),
+<<<<<<< HEAD
+      seed_(seed) {
+  capacity_.overlapped = overlapped;
+=======
       seed_(seed),
       access_(access) {
+>>>>>>> 77f101568ed9e905129aa1acf05cdbe7774926d6
   std::replace(name_.begin(), name_.end(), '-', '_');
   refuse_wide_sums(formats(), capacity_);
 }
 
-unsigned Machine::stages() const { return architecture_->stages + formats().propose_latency + formats().weigh_latency; }
+unsigned Machine::stages() const {
+  return architecture_->stages + architecture_->stages_a_lane * capacity_.lanes + formats().propose_latency +
+         formats().weigh_latency;
+}
 
 int Machine::particle_bits() const { return as_int(capacity_.lanes * formats().dims * formats().value_bits); }
 
@@ -215,6 +229,7 @@ std::vector<Parameter> Machine::parameters() const {
                              parameter("ProposeLatency", as_int(f.propose_latency)),
                              parameter("WeighLatency", as_int(f.weigh_latency)),
                              parameter("Seed", 64, seed_)};
+  if (f.carried > 0) all.push_back(parameter("CarryWidth", as_int(f.carried * f.value_bits)));
   for (const Parameter& one : architecture_->parameters(capacity_)) all.push_back(one);
   return all;
 }
@@ -264,8 +279,11 @@ std::string Machine::top(const std::string& folder) const {
                     {"state_top", top_bit(particle_bits())},
                     {"lanes", std::to_string(capacity_.lanes)},
                     {"state_width", std::to_string(f.dims * f.value_bits)},
+                    {"pair_width", std::to_string((f.dims + f.carried) * f.value_bits)},
                     {"draw_words", std::to_string(f.draw_words)},
                     {"log_width", std::to_string(f.log_bits)},
+                    {"weigh_obs", architecture_->chain ? "" : "  assign weigh_obs = obs;\n"},
+                    {"weigh_obs_connection", architecture_->chain ? ".weigh_obs_o(weigh_obs), " : ""},
                     {"estimate_wires", estimate.wires},
                     {"estimate_connections", estimate.connections},
                     {"estimate", estimate.together},

@@ -19,7 +19,7 @@ struct Field {
 /// The pipelines and their golden functions.
 ///
 /// Connections lead to the buses of mote_imh and mote_sisr by these names: t, obs, parent, words, proposed of propose;
-/// t, obs, to_weigh, log_weight of weigh.
+/// weigh_obs, to_weigh, log_weight of weigh.
 struct ModelCircuit {
   using Connections = std::vector<std::pair<std::string, std::string>>;
 

@@ -34,7 +34,8 @@ std::string shown(const ::testing::TestParamInfo<const Architecture*>& info) {
 
 TEST_P(Machines, EqualTheirGoldenModels) {
   const unsigned lanes = std::min(4U, GetParam()->most_lanes);
-  const Machine machine(local_level_circuit(), *GetParam(), kMost, 7, lanes);
+  const Machine machine(local_level_circuit(), *GetParam(), kMost, 7, lanes,
+                        GetParam()->folded);  // one kind overlapped
   Simulator circuit(machine);
   const auto golden = machine.golden();
   const auto equal = [&](const RunRegisters& registers, StreamPauses pauses) {
@@ -101,7 +102,8 @@ TEST_P(Machines, NameWhatTheyNeedAndNoMore) {
 
 // Debian's Yosys has no grammar for packed arrays of several dimensions, casts to named types, `return` in functions.
 TEST_P(Machines, AreReadByYosys) {
-  const Machine machine(local_level_circuit(), *GetParam(), kMost, 1, std::min(2U, GetParam()->most_lanes));
+  const Machine machine(local_level_circuit(), *GetParam(), kMost, 1, std::min(2U, GetParam()->most_lanes),
+                        GetParam()->folded);
   const ScratchFolder scratch;
   const std::string folder = scratch.path().string() + "/";
   for (const DesignFile& file : machine.modules(folder)) write_text(folder + file.name, file.text);

@@ -3,7 +3,7 @@
 // equation  y = a + b, or a - b with Subtract
 // formats   a, b, y: signed or not, Width bits, Fraction of them after the point (below 0: units above 1)
 // range     the sum is exact before it is rounded; mote_resize says how y is rounded, saturates or wraps
-// timing    latency 1; 2 where y is rounded to nearest with bits to drop, or saturates, and the exact sum has more than 20
+// timing    latency 1; 2 where y is rounded to nearest with bits to drop, or saturates, and the exact sum has more than 22
 //           bits. One sum a clock
 // twin      Sum in mote/hardware/arithmetic.hpp
 module mote_add #(
@@ -30,7 +30,7 @@ module mote_add #(
   localparam int AGrow = Fraction - AFraction;
   localparam int BGrow = Fraction - BFraction;
   localparam int Sum = (AWidth + AGrow > BWidth + BGrow ? AWidth + AGrow : BWidth + BGrow) + 2;
-  localparam int OneStage = 20;
+  localparam int OneStage = 22;
   localparam bit Refine = Sum > OneStage && (Saturate || (Nearest && Fraction > YFraction));
 
   logic signed [AWidth:0] a;

@@ -1,9 +1,10 @@
 // mote_rom: a table that never changes.
 //
-// timing  latency 2 (address to memory, memory to output register), one word a clock
+// timing  latency 2 (address to memory, memory to output register), 1 without OutRegister; one word a clock
 module mote_rom #(
     parameter int AddressWidth = 8,
     parameter int Width = 18,
+    parameter bit OutRegister = 1'b1,
     parameter File = "table.hex"  // one word a line, hexadecimal, 2^AddressWidth lines
 ) (
     input  logic                    clk_i,
@@ -15,9 +16,14 @@ module mote_rom #(
   logic [Width-1:0] word_q;
   initial $readmemh(File, words);
 
-  always_ff @(posedge clk_i) begin
-    word_q <= words[address_i];
-    word_o <= word_q;
-  end
+  always_ff @(posedge clk_i) word_q <= words[address_i];
+  mote_delay #(
+      .Width(Width),
+      .Depth(OutRegister ? 1 : 0)
+  ) out_u (
+      .clk_i,
+      .d_i(word_q),
+      .d_o(word_o)
+  );
 
 endmodule

@@ -1,10 +1,11 @@
 // mote_select: one of two words.
 //
 // equation  y = s ? a : b
-// timing    latency 1, one word a clock
+// timing    latency 1, 0 without Register; one word a clock
 // twin      Select in mote/hardware/choice.hpp
 module mote_select #(
-    parameter int Width = 18
+    parameter int Width = 18,
+    parameter bit Register = 1'b1
 ) (
     input  logic             clk_i,
     input  logic             s_i,
@@ -13,6 +14,13 @@ module mote_select #(
     output logic [Width-1:0] y_o
 );
 
-  always_ff @(posedge clk_i) y_o <= s_i ? a_i : b_i;
+  mote_delay #(
+      .Width(Width),
+      .Depth(Register ? 1 : 0)
+  ) out_u (
+      .clk_i,
+      .d_i(s_i ? a_i : b_i),
+      .d_o(y_o)
+  );
 
 endmodule

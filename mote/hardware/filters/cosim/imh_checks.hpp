@@ -78,7 +78,7 @@ inline std::vector<ImhRegisters> sizes(unsigned lanes) {
       r.particles += (lanes - r.particles % lanes) % lanes;
       r.draws += (lanes - r.draws % lanes) % lanes;
     }
-  if (lanes == 1) all.push_back({1024, 4000, 96, false});
+  all.push_back({1024, 4032, 64 / lanes, true});
   return all;
 }
 

@@ -2,6 +2,8 @@
 module imh_local_level #(
     parameter int unsigned Lanes   = 1,
     parameter int unsigned Parents = 1,
+    parameter int unsigned Folded  = 0,
+    parameter int unsigned Overlapped = 0,
     localparam int unsigned SlotWidth = $clog2(1024 / Lanes)
 ) (
     input  logic               clk_i,
@@ -28,26 +30,27 @@ module imh_local_level #(
     output logic        [12:0] est_accepted_o
 );
   logic [15:0] t;
-  logic signed [17:0] observed;
+  logic signed [17:0] unused_observed, weigh_observed;
   logic [Lanes-1:0][17:0] parent, proposed, to_weigh;
   logic [Lanes-1:0][1:0][31:0] words;
   logic [Lanes-1:0][23:0] log_weight;
   logic unused_propose_valid, unused_weigh_valid;
   mote_imh #(
-      .Lanes(Lanes), .Parents(Parents), .Dims(1), .ObsWidth(18), .DrawWords(2), .ProposeLatency(4), .WeighLatency(4)
+      .Lanes(Lanes), .Parents(Parents), .Folded(Folded), .Overlapped(Overlapped), .Dims(1), .ObsWidth(18), .DrawWords(2),
+      .ProposeLatency(4), .WeighLatency(4)
   ) u_imh (
       .clk_i, .rst_ni, .start_i, .n_i, .draws_i, .burn_in_i, .steps_i, .chain_mean_i, .busy_o,
       .obs_valid_i, .obs_ready_o, .obs_i,
-      .t_o(t), .obs_o(observed),
+      .t_o(t), .obs_o(unused_observed),
       .propose_valid_o(unused_propose_valid), .propose_state_o(parent), .propose_words_o(words),
       .propose_state_i(proposed),
-      .weigh_valid_o(unused_weigh_valid), .weigh_state_o(to_weigh), .weigh_log_i(log_weight),
+      .weigh_obs_o(weigh_observed), .weigh_valid_o(unused_weigh_valid), .weigh_state_o(to_weigh), .weigh_log_i(log_weight),
       .kept_valid_o, .kept_slot_o, .kept_state_o,
       .est_valid_o, .est_ready_i, .est_last_o, .est_mean_o, .est_sum_o, .est_scale_o, .est_accepted_o);
   for (genvar l = 0; l < Lanes; l++) begin : gen_lane
     local_level_propose u_propose (
         .clk_i, .first_i(t == 16'd1), .state_i($signed(parent[l])), .words_i(words[l]), .state_o(proposed[l]));
     local_level_weigh u_weigh (
-        .clk_i, .observed_i(observed), .state_i($signed(to_weigh[l])), .log_weight_o(log_weight[l]));
+        .clk_i, .observed_i(weigh_observed), .state_i($signed(to_weigh[l])), .log_weight_o(log_weight[l]));
   end
 endmodule

@@ -12,7 +12,8 @@
 //          sum is above 3
 // timing   sums: one row a cycle; 4 + log2 Lanes cycles from done_i to taking the sums, then 1 + Dims (ValueWidth + Extra + 1)
 //          to divide: a bit a cycle, without restoring. Sums must not begin anew before they are taken: the filter begins a
-//          step only when the one before the last has left, see pending_o
+//          step only when the one before the last has left, see pending_o. Overlapped: they may begin anew in the cycle after
+//          done_i, if the estimate before has left by the time they are taken, or does before they begin
 // golden   mote/hardware/filters/estimate.hpp
 module mote_estimate #(
     parameter int unsigned Lanes      = 1,
@@ -22,6 +23,7 @@ module mote_estimate #(
     parameter int unsigned At         = 10,
     parameter int unsigned Extra      = 8,
     parameter int unsigned ScaleWidth = 12,
+    parameter int unsigned Overlapped = 0,
     localparam int unsigned SumWidth  = Width + At,
     localparam int unsigned MeanWidth = ValueWidth + Extra + 1
 ) (
@@ -81,6 +83,10 @@ module mote_estimate #(
     end
   end
   assign sum_so_far_o = sum_q;
+  logic [SumWidth-1:0] sum;  // as old as the sums of values are
+  logic signed [ScaleWidth-1:0] scale;
+  mote_delay #(.Width(SumWidth + ScaleWidth), .Depth(Overlapped == 1 ? Wait - Tree : 0)) u_sum (
+      .clk_i, .d_i({sum_q, scale_q}), .d_o({sum, scale}));
 
   logic value_valid;
   logic [1:0] value_rise, value_rise_q;
@@ -171,9 +177,9 @@ module mote_estimate #(
   assign mean = {!low_q[Bits-1], low_q[Bits-2:0], !plus};
   always_ff @(posedge clk_i) begin
     if (take) begin
-      divisor_q  <= equal_i ? SumWidth'(count_i) << 16 : sum_q;
-      sum_o      <= sum_q;
-      scale_o    <= scale_q;
+      divisor_q  <= equal_i ? SumWidth'(count_i) << 16 : sum;
+      sum_o      <= sum;
+      scale_o    <= scale;
       accepted_o <= accepted_i;
       last_o     <= pending_last_q;
       turn_q     <= Dims'(1) << (Dims - 1);

@@ -1,31 +1,45 @@
-// The filter without resampling: independent Metropolis-Hastings over proposals from the mixture of parents, by one chain
-// or by Lanes copies of it in lockstep.
+// The filter without resampling: independent Metropolis-Hastings over proposals from the mixture of parents, by one chain,
+// by Lanes copies of it in lockstep, or by one chain that Lanes pairs of pipelines feed (Folded).
 //
 //   for j = 0 .. Q/Lanes + N_b - 1, in every lane:   i ~ U{parents},  x' ~ p(. | x_i),  lw' = log2 p(y | x')
 //   accept x' after x   iff   j = 0  or  lw <= lw' - log2 u
 //   keeps the last N/Lanes states of each chain; mean over all proposals by weight, or over the kept (chain_mean_i)
 //
+// Folded: the chain visits the proposals of a row lane by lane (mote_fold), so that N_b is of one chain: Q/Lanes + N_b/Lanes
+// rows, the latter rounded up; slot k of the set holds the states k Lanes .. k Lanes + Lanes - 1 that were kept.
 // Parents says whose states a lane's parents are: 0 its own chain's, 1 all chains', in a common turn (banked), 2 all
 // chains', each by itself (shared: a copy of the set for every lane); see mote_parents.
+// Overlapped: a step begins to propose while the one before is still decided on. Its first proposals have their parents among
+// the states that have emerged by then, n = N/Lanes slots in all:
+//   slots of row j:  min(n, n - H + j),   H = min(W, floor(n / 2)),   W = K_p + K_w - 2
 // The arithmetic of a model is outside, pipelines without stalls, one a lane: propose (state_i, words -> state,
 // ProposeLatency cycles) and weigh (state -> log weight, WeighLatency cycles). t_o and obs_o stand from 4 cycles before
-// the first state of a step reaches propose until its last leaves weigh. At t = 1 the parent's state is undefined: propose
-// draws it from the prior.
+// the first state of a step reaches propose until its last leaves weigh. Overlapped, they and weigh_obs_o change with a step's
+// first state at propose and at weigh, whose pipelines delay them with each particle. At t = 1 the parent's state is undefined:
+// propose draws it from the prior.
+//
+// With CarryWidth a proposal is a state and, above it, what only weigh takes: the parent, of which the auxiliary-variable
+// filter's weights (IMH-OPT 23) are made.
 //
 // formats  states: Dims signed words of ValueWidth bits; log weights: signed, octaves, 10 fraction bits
 // range    Lanes a power of two, n_i and draws_i multiples of it; Lanes <= n_i <= Most; n_i <= draws_i;
-//          draws_i + Lanes burn_in_i <= 2^At; Most <= 2^At. Registers are read at start_i
-// timing   a step takes (N_b + Q/Lanes - 1) + K_p + K_w + 1 cycles, exactly (IMH-HW 5.3 with T_p = T_w = T_D = 1):
-//          K_p = 4 + ProposeLatency, K_w = WeighLatency + 1; the estimate follows 7 + Dims (ValueWidth + Extra + 1)
-//          cycles (1 + log2 Lanes more with several lanes) behind the last decision. It waits for an observation, and for the
-//          estimate of the step before the last to be taken. ProposeLatency + WeighLatency >= 6
+//          draws_i + Lanes burn_in_i <= 2^At (Folded: draws_i + burn_in_i); Most <= 2^At. Registers are read at start_i
+// timing   a step of r rows takes (r - 1) + K_p + K_w + 1 cycles, exactly (IMH-HW 5.3 with T_p = T_w = T_D = 1; of pairs with
+//          T_D = 1/Lanes): K_p = 4 + ProposeLatency, K_w = WeighLatency + 1 (Folded: WeighLatency + Lanes + 2); the estimate
+//          follows 7 + Dims (ValueWidth + Extra + 1) cycles (1 + log2 Lanes more with several lanes) behind the last decision, of
+//          a folded chain sooner or later, see imh.cpp. A step waits for an observation, and for the estimate of the
+//          step before the last to be taken. Overlapped: r + W - H cycles; r where n >= 2 W.
+//          ProposeLatency + WeighLatency >= 6
 // golden   mote/hardware/filters/imh.hpp
-// source   IMH-HW figs. 2 and 3, (16) - (17)
+// source   IMH-HW figs. 2 and 3, (16) - (17); IMH-OPT fig. 2
 module mote_imh #(
     parameter int unsigned Lanes          = 1,
     parameter int unsigned Parents        = 1,
+    parameter int unsigned Folded         = 0,
+    parameter int unsigned Overlapped     = 0,
     parameter int unsigned Dims           = 1,
     parameter int unsigned ValueWidth     = 18,
+    parameter int unsigned CarryWidth     = 0,
     parameter int unsigned ObsWidth       = 32,
     parameter int unsigned DrawWords      = 1,
     parameter int unsigned LogWidth       = 24,
@@ -43,6 +57,7 @@ module mote_imh #(
     localparam int unsigned SumWidth   = WeightWidth + At,
     localparam int unsigned MeanWidth  = ValueWidth + Extra + 1,
     localparam int unsigned StateWidth = Dims * ValueWidth,
+    localparam int unsigned PairWidth  = StateWidth + CarryWidth,
     localparam int unsigned SlotWidth  = Most > Lanes ? $clog2(Most / Lanes) : 1
 ) (
     input  logic                                   clk_i,
@@ -65,9 +80,10 @@ module mote_imh #(
     output logic                                   propose_valid_o,
     output logic [Lanes*StateWidth-1:0]           propose_state_o,
     output logic [Lanes*DrawWords*32-1:0]         propose_words_o,
-    input  logic [Lanes*StateWidth-1:0]           propose_state_i,
+    input  logic [Lanes*PairWidth-1:0]            propose_state_i,
+    output logic        [ObsWidth-1:0]             weigh_obs_o,
     output logic                                   weigh_valid_o,
-    output logic [Lanes*StateWidth-1:0]           weigh_state_o,
+    output logic [Lanes*PairWidth-1:0]            weigh_state_o,
     input  logic [Lanes*LogWidth-1:0]             weigh_log_i,
     // the set, as it is written: slots of each lane
     output logic                                   kept_valid_o,
@@ -83,45 +99,95 @@ module mote_imh #(
     output logic        [At:0]                     est_accepted_o
 );
   localparam int unsigned ModelLatency = ProposeLatency + WeighLatency;
+  localparam int unsigned ChainLatency = Folded == 1 ? Lanes + 2 : 1;  // from the log weights of a row to what is decided
+  localparam int unsigned Window = 4 + ModelLatency + ChainLatency - 2;
   typedef logic [At:0] count_t;
 
   // ---- what a run is, of a lane
   localparam int unsigned LaneBits = $clog2(Lanes);
   localparam int unsigned Streams = 2 + DrawWords;  // of a lane: parents, acceptance, draws
-  count_t n_q, total_q, drop_q, per_lane_n, per_lane_draws;
+  count_t n_q, total_q, drop_q, per_lane_n, rows;
   assign per_lane_n = n_i >> LaneBits;
-  assign per_lane_draws = draws_i >> LaneBits;
+  assign rows = (draws_i >> LaneBits) + (Folded == 1 ? (burn_in_i + (At + 1)'(Lanes - 1)) >> LaneBits : burn_in_i);
   logic equal_q;
   logic starts_run;
   always_ff @(posedge clk_i) begin
     if (starts_run) begin
       n_q     <= per_lane_n;
-      total_q <= per_lane_draws + burn_in_i;
-      drop_q  <= per_lane_draws + burn_in_i - per_lane_n;
+      total_q <= rows;
+      drop_q  <= rows - per_lane_n;
       equal_q <= chain_mean_i;
     end
   end
 
-  // ---- steps: each begins when the one before has decided all
-  logic begins, issues_q, decided_last, unused_none_left;
-  count_t issue_q;
+  // ---- steps: each begins when the one before has decided all, or enough
+  logic begins, issues_q, issue_last, decided_last, free, unused_none_left;
+  logic [15:0] step;
+  logic [ObsWidth-1:0] observed;
+  count_t issue_q, slots;
+  assign issue_last = issues_q && issue_q + (At + 1)'(1) == total_q;
   mote_steps #(.ObsWidth(ObsWidth)) u_steps (
       .clk_i, .rst_ni, .start_i, .steps_i, .busy_o, .starts_o(starts_run),
       .obs_valid_i, .obs_ready_o, .obs_i,
-      .free_i(decided_last), .begins_o(begins), .none_left_o(unused_none_left), .t_o, .obs_o,
+      .free_i(free), .begins_o(begins), .none_left_o(unused_none_left), .t_o(step), .obs_o(observed),
       .est_taken_i(est_valid_o && est_ready_i), .est_last_i(est_last_o));
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) issues_q <= 1'b0;
     else if (begins) issues_q <= 1'b1;
-    else if (issue_q + (At + 1)'(1) == total_q) issues_q <= 1'b0;
+    else if (issue_last) issues_q <= 1'b0;
   end
   always_ff @(posedge clk_i) begin
     if (begins) issue_q <= '0;
     else if (issues_q) issue_q <= issue_q + (At + 1)'(1);
   end
+  logic bank_q, read_bank;
+  if (Overlapped == 1) begin : gen_overlapped
+    localparam int unsigned GapWidth = $clog2(Window + 1);
+    count_t head, window_q, slots_q, first_q;
+    logic [GapWidth-1:0] gap_q, left_q;
+    logic reads_next, proposes_next, weighs_next, read_bank_q;
+    assign head = per_lane_n >> 1 > (At + 1)'(Window) ? (At + 1)'(Window) : per_lane_n >> 1;
+    assign free = issue_last && gap_q == '0 || left_q == GapWidth'(1);
+    mote_valid #(.Depth(2)) u_reads (.clk_i, .rst_ni, .valid_i(begins), .valid_o(reads_next));
+    mote_valid #(.Depth(2)) u_proposes (.clk_i, .rst_ni, .valid_i(reads_next), .valid_o(proposes_next));
+    mote_valid #(.Depth(ProposeLatency)) u_weighs (.clk_i, .rst_ni, .valid_i(proposes_next), .valid_o(weighs_next));
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        left_q      <= '0;
+        read_bank_q <= 1'b1;
+      end else begin
+        if (issue_last) left_q <= gap_q;
+        else if (left_q != '0) left_q <= left_q - GapWidth'(1);
+        if (reads_next) read_bank_q <= ~read_bank_q;
+      end
+    end
+    always_ff @(posedge clk_i) begin
+      if (starts_run) begin
+        first_q <= per_lane_n - head;
+        gap_q   <= GapWidth'((At + 1)'(Window) - head);
+      end
+      if (begins) window_q <= first_q;
+      else if (issues_q && window_q != n_q) window_q <= window_q + (At + 1)'(1);
+      slots_q <= window_q;
+      if (proposes_next) begin
+        t_o   <= step;
+        obs_o <= observed;
+      end
+      if (weighs_next) weigh_obs_o <= obs_o;
+    end
+    assign slots = slots_q;
+    assign read_bank = read_bank_q;
+  end else begin : gen_apart
+    assign free = decided_last;
+    assign slots = n_q;
+    assign read_bank = bank_q;
+    assign t_o = step;
+    assign obs_o = observed;
+    assign weigh_obs_o = observed;
+  end
 
   // ---- parents
-  logic valid4, valid_log, bank_q;
+  logic valid4, valid_log;
   mote_valid #(.Depth(4)) u_valid4 (.clk_i, .rst_ni, .valid_i(issues_q), .valid_o(valid4));
   mote_parents #(
       .Lanes(Lanes), .Choice(Parents), .Width(StateWidth), .CountWidth(At + 1), .SlotWidth(SlotWidth), .Seed(Seed),
@@ -129,17 +195,20 @@ module mote_imh #(
   ) u_parents (
       .clk_i, .rst_ni,
       .advance_i(issues_q),
-      .n_i(n_q),
-      .bank_i(bank_q),
+      .n_i(slots),
+      .bank_i(read_bank),
       .state_o(propose_state_o),
       .write_i(kept_valid_o),
+      .write_bank_i(~bank_q),
       .write_slot_i(kept_slot_o),
       .write_state_i(kept_state_o));
 
   // ---- the model's arithmetic, and the chains, whose words begin 5 cycles before the log weight is there
-  logic weighed_valid, decides_q, starts, keeps;
+  localparam int unsigned Scaled = Lanes > 1 ? 4 : 3;  // from log weights to weights, the latency of mote_weight
+  localparam int unsigned Tap = ChainLatency < Scaled ? ChainLatency : Scaled;
+  logic weighed_valid, weighed_first, decides, starts, keeps;
   logic [Lanes-1:0] accepts;
-  logic [Lanes*StateWidth-1:0] decided_state, current;
+  logic [Lanes*StateWidth-1:0] proposed_state, tapped_state, decided_state, current;
   assign propose_valid_o = valid4;
   assign weigh_state_o = propose_state_i;
   mote_valid #(.Depth(ProposeLatency)) u_weigh_valid (
@@ -148,101 +217,147 @@ module mote_imh #(
       .clk_i, .rst_ni, .valid_i(weigh_valid_o), .valid_o(weighed_valid));
   mote_valid #(.Depth(ModelLatency - 1)) u_log_valid (
       .clk_i, .rst_ni, .valid_i(issues_q), .valid_o(valid_log));
-  for (genvar l = 0; l < Lanes; l++) begin : gen_lane
-    for (genvar w = 0; w < DrawWords; w++) begin : gen_words
+  mote_valid #(.Depth(ChainLatency)) u_decides (
+      .clk_i, .rst_ni, .valid_i(weighed_valid), .valid_o(decides));
+  mote_delay #(.Width(Lanes * StateWidth), .Depth(WeighLatency + Tap)) u_tapped_state (
+      .clk_i, .d_i(proposed_state), .d_o(tapped_state));
+  mote_delay #(.Width(Lanes * StateWidth), .Depth(ChainLatency - Tap)) u_decided_state (
+      .clk_i, .d_i(tapped_state), .d_o(decided_state));
+  for (genvar l = 0; l < Lanes; l++) begin : gen_words
+    assign proposed_state[l*StateWidth+:StateWidth] = propose_state_i[l*PairWidth+:StateWidth];
+    for (genvar w = 0; w < DrawWords; w++) begin : gen_word
       mote_words #(.Seed(Seed), .Stream(Stream + Streams * l + 2 + w)) u_words (
           .clk_i, .rst_ni, .advance_i(valid4), .word_o(propose_words_o[(l*DrawWords+w)*32+:32]));
     end
-    mote_delay #(.Width(StateWidth), .Depth(WeighLatency + 1)) u_decided_state (
-        .clk_i, .d_i(propose_state_i[l*StateWidth+:StateWidth]), .d_o(decided_state[l*StateWidth+:StateWidth]));
-    mote_chain #(
-        .LogWidth(LogWidth), .StateWidth(StateWidth), .Seed(Seed), .Stream(Stream + Streams * l + 1),
-        .Log2Table(Log2Table)
-    ) u_chain (
+  end
+  if (Folded == 1) begin : gen_folded
+    mote_fold #(
+        .Lanes(Lanes), .LogWidth(LogWidth), .StateWidth(StateWidth), .Seed(Seed), .Stream(Stream + 1),
+        .StreamStep(Streams), .Log2Table(Log2Table)
+    ) u_fold (
         .clk_i, .rst_ni,
         .word_i(valid_log),
-        .log_weight_i(weigh_log_i[l*LogWidth+:LogWidth]),
-        .decides_i(decides_q),
-        .starts_i(starts),
-        .state_i(decided_state[l*StateWidth+:StateWidth]),
-        .accepts_o(accepts[l]),
-        .state_o(kept_state_o[l*StateWidth+:StateWidth]),
-        .current_o(current[l*StateWidth+:StateWidth]));
+        .valid_i(weighed_valid),
+        .first_i(weighed_first),
+        .log_weight_i(weigh_log_i),
+        .state_i(decided_state),
+        .accepts_o(accepts),
+        .state_o(kept_state_o));
+    mote_delay #(.Width(Lanes * StateWidth)) u_current (.clk_i, .d_i(kept_state_o), .d_o(current));
+  end else begin : gen_chains
+    for (genvar l = 0; l < Lanes; l++) begin : gen_lane
+      mote_chain #(
+          .LogWidth(LogWidth), .StateWidth(StateWidth), .Seed(Seed), .Stream(Stream + Streams * l + 1),
+          .Log2Table(Log2Table)
+      ) u_chain (
+          .clk_i, .rst_ni,
+          .word_i(valid_log),
+          .log_weight_i(weigh_log_i[l*LogWidth+:LogWidth]),
+          .decides_i(decides),
+          .starts_i(starts),
+          .state_i(decided_state[l*StateWidth+:StateWidth]),
+          .accepts_o(accepts[l]),
+          .state_o(kept_state_o[l*StateWidth+:StateWidth]),
+          .current_o(current[l*StateWidth+:StateWidth]));
+    end
   end
 
-  count_t decided_q, accepted_q, moves;
+  // What a row moved the chains by; that they start is no move.
+  count_t decided_q, accepted_q, accepted_d, accepted, moves;
   always_comb begin
     moves = '0;
     for (int l = 0; l < Lanes; l++) moves = moves + (At + 1)'(accepts[l]);
   end
+  assign accepted_d = !starts ? accepted_q + moves : Folded == 1 ? moves : '0;
   logic [SlotWidth-1:0] slot_q;
   logic kept_q, kept_first_q;
   assign starts = decided_q == '0;
   assign keeps = decided_q >= drop_q;
-  assign decided_last = decides_q && decided_q + (At + 1)'(1) == total_q;
+  assign decided_last = decides && decided_q + (At + 1)'(1) == total_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      decides_q <= 1'b0;
       kept_q    <= 1'b0;
       bank_q    <= 1'b0;
       decided_q <= '0;
+      slot_q    <= '0;
     end else begin
-      decides_q <= weighed_valid;
-      kept_q    <= kept_valid_o;
+      kept_q <= kept_valid_o;
       if (decided_last) bank_q <= ~bank_q;
-      if (decides_q) decided_q <= decided_last ? '0 : decided_q + (At + 1)'(1);
+      if (decides) decided_q <= decided_last ? '0 : decided_q + (At + 1)'(1);
+      if (kept_valid_o) slot_q <= decided_last ? '0 : slot_q + SlotWidth'(1);
     end
   end
   always_ff @(posedge clk_i) begin
-    if (begins) slot_q <= '0;
-    else if (kept_valid_o) slot_q <= slot_q + SlotWidth'(1);
-    if (decides_q) accepted_q <= starts ? '0 : accepted_q + moves;
+    if (decides) accepted_q <= accepted_d;
     kept_first_q <= decided_q == drop_q;
   end
-  assign kept_valid_o = decides_q && keeps;
+  if (Overlapped == 1) begin : gen_accepted  // the next step's first decision comes at once
+    count_t accepted_last_q;
+    always_ff @(posedge clk_i) if (decided_last) accepted_last_q <= accepted_d;
+    assign accepted = accepted_last_q;
+  end else begin : gen_accepted
+    assign accepted = accepted_q;
+  end
+  assign kept_valid_o = decides && keeps;
   assign kept_slot_o = slot_q;
 
-  // ---- inference
-  logic weight_valid, weighed_first;
-  logic [1:0] weight_rise;
-  logic [Lanes*WeightWidth-1:0] weight;
-  logic [Lanes*StateWidth-1:0] inferred_state;
-  mote_delay #(.Width(Lanes * StateWidth), .Depth(Lanes > 1 ? 3 : 2)) u_inferred_state (
-      .clk_i, .d_i(decided_state), .d_o(inferred_state));
-  logic signed [ScaleWidth-1:0] scale;
-  count_t weighed_q, summed_q;
-  logic summed_last;
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      weighed_q <= '0;
-      summed_q  <= '0;
-    end else begin
-      if (weighed_valid) weighed_q <= weighed_q + (At + 1)'(1) == total_q ? '0 : weighed_q + (At + 1)'(1);
-      if (weight_valid) summed_q <= summed_last ? '0 : summed_q + (At + 1)'(1);
-    end
-  end
-  assign weighed_first = weighed_q == '0;
-  assign summed_last = weight_valid && summed_q + (At + 1)'(1) == total_q;
+  // ---- inference: weights are there Scaled cycles after their logarithms, kept states ChainLatency + 1; all is in at Done,
+  // and where the next step's follow at once both come by then
+  localparam int unsigned Done = ChainLatency + 1 > Scaled ? ChainLatency + 1 : Scaled;
+  localparam int unsigned HoldWeights = Overlapped == 1 ? Done - Scaled : 0;
+  localparam int unsigned HoldKept = Overlapped == 1 ? Done - (ChainLatency + 1) : 0;
+  localparam logic [WeightWidth-1:0] Unit = WeightWidth'(65536);
+  localparam int unsigned WeightBits = 2 + ScaleWidth + Lanes * WeightWidth;
+  logic scaled_valid, weight_valid;
+  logic [1:0] scaled_rise, weight_rise;
+  logic [Lanes*WeightWidth-1:0] scaled, weight;
+  logic [Lanes*StateWidth-1:0] inferred_state, kept;
+  logic signed [ScaleWidth-1:0] scaled_scale, scale;
+  logic kept_valid, kept_first;
   mote_weight #(.Lanes(Lanes), .LogWidth(LogWidth), .Width(WeightWidth), .Table(Exp2Table)) u_weight (
       .clk_i, .rst_ni,
       .valid_i(weighed_valid),
       .first_i(weighed_first),
       .log_weight_i(weigh_log_i),
-      .valid_o(weight_valid),
-      .rise_o(weight_rise),
-      .weight_o(weight),
-      .scale_o(scale));
+      .valid_o(scaled_valid),
+      .rise_o(scaled_rise),
+      .weight_o(scaled),
+      .scale_o(scaled_scale));
+  mote_valid #(.Depth(HoldWeights)) u_weight_valid (
+      .clk_i, .rst_ni, .valid_i(scaled_valid), .valid_o(weight_valid));
+  mote_delay #(.Width(WeightBits), .Depth(HoldWeights)) u_held_weight (
+      .clk_i, .d_i({scaled_rise, scaled_scale, scaled}), .d_o({weight_rise, scale, weight}));
+  mote_delay #(.Width(Lanes * StateWidth), .Depth(Scaled + HoldWeights - Tap)) u_inferred_state (
+      .clk_i, .d_i(tapped_state), .d_o(inferred_state));
+  mote_valid #(.Depth(HoldKept)) u_kept_valid (.clk_i, .rst_ni, .valid_i(kept_q), .valid_o(kept_valid));
+  mote_delay #(.Width(1 + Lanes * StateWidth), .Depth(HoldKept)) u_kept (
+      .clk_i, .d_i({kept_first_q, current}), .d_o({kept_first, kept}));
 
+  count_t weighed_q, summed_q;
+  logic summed_last, done, last;
   logic [15:0] steps_left_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) steps_left_q <= '0;
-    else if (starts_run) steps_left_q <= steps_i;
-    else if (summed_last) steps_left_q <= steps_left_q - 16'd1;
+    if (!rst_ni) begin
+      weighed_q    <= '0;
+      summed_q     <= '0;
+      steps_left_q <= '0;
+    end else begin
+      if (weighed_valid) weighed_q <= weighed_q + (At + 1)'(1) == total_q ? '0 : weighed_q + (At + 1)'(1);
+      if (weight_valid) summed_q <= summed_last ? '0 : summed_q + (At + 1)'(1);
+      if (starts_run) steps_left_q <= steps_i;
+      else if (summed_last) steps_left_q <= steps_left_q - 16'd1;
+    end
   end
+  assign weighed_first = weighed_q == '0;
+  assign summed_last = weight_valid && summed_q + (At + 1)'(1) == total_q;
+  mote_valid #(.Depth(Done - Scaled - HoldWeights)) u_done (.clk_i, .rst_ni, .valid_i(summed_last), .valid_o(done));
+  mote_delay #(.Width(1), .Depth(Done - Scaled - HoldWeights)) u_last (
+      .clk_i, .d_i(steps_left_q == 16'd1), .d_o(last));
   logic unused_pending;
   logic [SumWidth-1:0] unused_sum;
   mote_estimate #(
-      .Lanes(Lanes), .Dims(Dims), .ValueWidth(ValueWidth), .Width(WeightWidth), .At(At), .Extra(Extra), .ScaleWidth(ScaleWidth)
+      .Lanes(Lanes), .Dims(Dims), .ValueWidth(ValueWidth), .Width(WeightWidth), .At(At), .Extra(Extra), .ScaleWidth(ScaleWidth),
+      .Overlapped(Overlapped)
   ) u_estimate (
       .clk_i, .rst_ni,
       .weight_valid_i(weight_valid),
@@ -250,15 +365,15 @@ module mote_imh #(
       .weight_i(weight),
       .scale_i(scale),
       .sum_so_far_o(unused_sum),
-      .value_valid_i(equal_q ? kept_q : weight_valid),
-      .value_rise_i(equal_q ? {2{kept_first_q}} : weight_rise),
-      .value_weight_i(equal_q ? {Lanes{WeightWidth'(1) << 16}} : weight),
-      .value_i(equal_q ? current : inferred_state),
-      .done_i(summed_last),
-      .last_i(steps_left_q == 16'd1),
+      .value_valid_i(equal_q ? kept_valid : weight_valid),
+      .value_rise_i(equal_q ? {2{kept_first}} : weight_rise),
+      .value_weight_i(equal_q ? {Lanes{Unit}} : weight),
+      .value_i(equal_q ? kept : inferred_state),
+      .done_i(done),
+      .last_i(last),
       .equal_i(equal_q),
       .count_i(n_q << LaneBits),
-      .accepted_i(accepted_q),
+      .accepted_i(accepted),
       .pending_o(unused_pending),
       .valid_o(est_valid_o),
       .ready_i(est_ready_i),

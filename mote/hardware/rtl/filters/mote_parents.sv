@@ -6,7 +6,8 @@
 //     2 shared   r of the lane's own word: parents are independent, every lane holds a copy of all memories
 //
 // formats  words as they come: u from the 24 upper bits, r from the bits below. Lanes: a power of two, at most 256
-// timing   state_o 4 cycles after advance_i, initiation interval 1; two sets: bank_i is read, the other one is written
+// timing   state_o 4 cycles after advance_i, initiation interval 1; n_i goes a cycle behind advance_i. Two
+//          sets: bank_i, of the cycle in which a slot is read (2 behind advance_i), and the one that is written
 // golden   mote/hardware/filters/imh.hpp
 module mote_parents #(
     parameter int unsigned Lanes      = 1,
@@ -26,6 +27,7 @@ module mote_parents #(
     input  logic                        bank_i,
     output logic [Lanes*Width-1:0]      state_o,
     input  logic                        write_i,
+    input  logic                        write_bank_i,
     input  logic [SlotWidth-1:0]        write_slot_i,
     input  logic [Lanes*Width-1:0]      write_state_i
 );
@@ -61,7 +63,7 @@ module mote_parents #(
     mote_set #(.Lanes(Lanes), .Width(Width), .SlotWidth(SlotWidth + 1)) u_set (
         .clk_i,
         .write_i,
-        .write_slot_i({~bank_i, write_slot_i}),
+        .write_slot_i({write_bank_i, write_slot_i}),
         .write_state_i,
         .read_slot_i(slot),
         .read_lane_i(from),
@@ -74,7 +76,7 @@ module mote_parents #(
       mote_ram #(.Width(Width), .Words(2 << SlotWidth)) u_set (
           .clk_i,
           .write_i,
-          .write_at_i({~bank_i, write_slot_i}),
+          .write_at_i({write_bank_i, write_slot_i}),
           .write_word_i(write_state_i[l*Width+:Width]),
           .read_at_i({bank_i, slot_q[reader*SlotWidth+:SlotWidth]}),
           .read_word_o(read[l*Width+:Width]));
