@@ -52,22 +52,16 @@ FilterCircuit filter_circuit(const std::shared_ptr<const CatalogueModel>& model,
   const WordStudy study(*model_of_instance(model, name, design), sample_design(design));
   hardware::DatapathOptions options;
   options.prefix = "mote_" + identifier(name);
-<<<<<<< HEAD
   options.overlapped = design.overlapped;
   FilterCircuit circuit{
       study.recorded(), hardware::datapath(study.recorded(), study.samples(), options), nullptr, {}, model->states()};
   const auto machine = [&](unsigned instance) {
     return std::make_shared<hardware::Machine>(model_circuit(identifier(name), circuit), *design.architecture,
                                                design.registers, seed_of_instance(design.seed, instance), design.lanes,
-                                               design.overlapped);
+                                               design.overlapped, design.access);
   };
   circuit.machine = machine(0);
   for (unsigned i = 1; i < design.instances; ++i) circuit.others.push_back(machine(i));
-=======
-  FilterCircuit circuit{study.recorded(), hardware::datapath(study.recorded(), study.samples(), options), nullptr};
-  circuit.machine = std::make_shared<hardware::Machine>(model_circuit(identifier(name), circuit), *design.architecture,
-                                                        design.registers, design.seed, design.lanes, design.access);
->>>>>>> 77f101568ed9e905129aa1acf05cdbe7774926d6
   return circuit;
 }
 

@@ -17,14 +17,11 @@ struct CircuitDesign {
   hardware::RunRegisters registers;  ///< of the runs to come; the circuit has room for no more
   std::uint64_t seed = 1;
   unsigned lanes = 1;
-<<<<<<< HEAD
   bool overlapped = false;
   unsigned instances = 1;          ///< for a model of so many independent copies: a circuit each, side by side
   std::string where = "mote rtl";  ///< who asks for it, for refusals
   std::string proposal = "prior";  ///< of an architecture whose weights are those of pairs
-=======
   hardware::RegisterAccess access = hardware::RegisterAccess::kPorts;
->>>>>>> 77f101568ed9e905129aa1acf05cdbe7774926d6
 };
 
 /// A circuit, and what the host knows of its model.

@@ -151,9 +151,8 @@ std::string testbench_of(const hardware::Machine& machine, const CircuitDesign& 
                     {"most_cycles", fmt::format("{}", 2 * vectors.cycles + 1000)}});
 }
 
-<<<<<<< HEAD
 /// The module that holds all instances, and its own testbench in place of one circuit's.
-void add_instances(Files& files, const FilterCircuit& circuit, const CircuitDesign& design,
+void add_instances(DesignFiles& files, const FilterCircuit& circuit, const CircuitDesign& design,
                    const std::vector<Vectors>& all) {
   const hardware::Machine& machine = *circuit.machine;
   std::uint64_t cycles = 0;
@@ -171,15 +170,19 @@ void add_instances(Files& files, const FilterCircuit& circuit, const CircuitDesi
   }
 }
 
-Files files_of(const FilterCircuit& circuit, const CircuitReport& found, const std::vector<Vectors>& all) {
+DesignFiles files_of(const FilterCircuit& circuit, const CircuitReport& found, const std::vector<Vectors>& all) {
   const Vectors& vectors = all.front();
-=======
-DesignFiles files_of(const FilterCircuit& circuit, const CircuitReport& found, const Vectors& vectors) {
->>>>>>> 77f101568ed9e905129aa1acf05cdbe7774926d6
   const hardware::Machine& machine = *circuit.machine;
   const double period_ns = 1000 / found.cost.value_or(hardware::Cost{}).fmax_mhz.value_or(100);
+  const std::vector<hardware::DesignFile> golden = found.design.instances > 1
+                                                       ? std::vector<hardware::DesignFile>{}
+                                                       : hardware::c_library(machine, found.design.registers);
   const std::map<std::string, std::string> places{
       {"name", machine.name()},
+      {"golden_row", golden.empty() ? ""
+                                    : fmt::format("| `golden/` | the golden model as a library in C (`{}.h`): `sh "
+                                                  "golden/run.sh` compiles it and plays the same recording |\n",
+                                                  machine.name())},
       {"top", machine.top_name()},
       {"bus_row", on_bus(machine)
                       ? fmt::format("\n| `rtl/{}.sv` | the same with its registers on AXI4-Lite |", machine.top_name())
@@ -205,12 +208,8 @@ DesignFiles files_of(const FilterCircuit& circuit, const CircuitReport& found, c
                     {"testbench/particles.hex", vectors.particles}};
   for (const hardware::DesignFile& file : machine.modules("")) files["rtl/" + file.name] = file.text;
   for (const hardware::DesignFile& file : machine.tables()) files["tables/" + file.name] = file.text;
-<<<<<<< HEAD
+  for (const hardware::DesignFile& file : golden) files["golden/" + file.name] = file.text;
   if (found.design.instances > 1) add_instances(files, circuit, found.design, all);
-=======
-  for (const hardware::DesignFile& file : hardware::c_library(machine, found.design.registers))
-    files["golden/" + file.name] = file.text;
->>>>>>> 77f101568ed9e905129aa1acf05cdbe7774926d6
   if (found.simulation)
     files["estimates.csv"] = circuit_estimates_csv(found.simulation->record, machine.architecture().chain);
   return files;
@@ -237,14 +236,6 @@ void make_folders(const fs::path& folder, const DesignFiles& files) {
 
 }  // namespace
 
-<<<<<<< HEAD
-void write_design(OutputSet& outputs, const std::string& folder, const FilterCircuit& circuit,
-                  const CircuitReport& found, const Recording& played, const std::string& where) {
-  std::vector<Vectors> all;
-  for (unsigned i = 0; i < found.design.instances; ++i)
-    all.push_back(vectors_of(circuit, found.design, i, instance_of(circuit, found.design, played, i), where));
-  const Files files = files_of(circuit, found, all);
-=======
 std::string hex_of(const std::vector<std::uint32_t>& words) {
   std::string text;
   for (auto word = words.rbegin(); word != words.rend(); ++word) text += fmt::format("{:08x}", *word);
@@ -252,7 +243,6 @@ std::string hex_of(const std::vector<std::uint32_t>& words) {
 }
 
 void write_files(OutputSet& outputs, const std::string& folder, const DesignFiles& files) {
->>>>>>> 77f101568ed9e905129aa1acf05cdbe7774926d6
   refuse_foreign(folder, files);
   make_folders(folder, files);
   for (const auto& [name, text] : files) outputs.open((fs::path(folder) / name).string())->write(text);
@@ -260,7 +250,10 @@ void write_files(OutputSet& outputs, const std::string& folder, const DesignFile
 
 void write_design(OutputSet& outputs, const std::string& folder, const FilterCircuit& circuit,
                   const CircuitReport& found, const Recording& played, const std::string& where) {
-  write_files(outputs, folder, files_of(circuit, found, vectors_of(circuit, found.design, played, where)));
+  std::vector<Vectors> all;
+  for (unsigned i = 0; i < found.design.instances; ++i)
+    all.push_back(vectors_of(circuit, found.design, i, instance_of(circuit, found.design, played, i), where));
+  write_files(outputs, folder, files_of(circuit, found, all));
 }
 
 }  // namespace mote

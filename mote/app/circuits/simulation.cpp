@@ -97,26 +97,19 @@ RunRecord run_of_instances(const FilterCircuit& circuit, const CircuitDesign& de
 }  // namespace
 
 CircuitSimulation simulated_run(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
-<<<<<<< HEAD
-                                const std::string& where) {
+                                const std::string& where, bool counts_changes) {
   std::vector<hardware::Agreement> agreements;
+  hardware::Activity activity;
   const auto simulate = [&](unsigned i, const std::vector<std::vector<std::int64_t>>& observed) {
     const hardware::Machine& machine = circuit.instance(i);
-    hardware::Simulator simulator(machine);
+    hardware::Simulator simulator(machine, counts_changes);
     const hardware::CircuitRun run = simulator.run(design.registers, observed);
+    activity = run.activity;
     agreements.push_back(hardware::agreement(run, *machine.golden(), design.registers, observed));
     return run.estimates;
   };
   RunRecord record = run_of_instances(circuit, design, recording, where, simulate);
-  return {side_by_side(agreements), std::move(record)};
-=======
-                                const std::string& where, bool counts_changes) {
-  const auto observed = observed_by(circuit, recording, where);
-  hardware::Simulator simulator(*circuit.machine, counts_changes);
-  const hardware::CircuitRun run = simulator.run(design.registers, observed);
-  return {hardware::agreement(run, *circuit.machine->golden(), design.registers, observed), run.activity,
-          record_of(circuit, design, recording, run.estimates)};
->>>>>>> 77f101568ed9e905129aa1acf05cdbe7774926d6
+  return {side_by_side(agreements), activity, std::move(record)};
 }
 
 RunRecord golden_run(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,

@@ -105,7 +105,7 @@ PlayedAccelerator accelerator_from(const Arguments& arguments, const std::string
   if (kind == "resampler") return played_resampler(n, seed);
   CircuitDesign design = circuit_design_from(arguments);
   const Job job = job_from(arguments);
-  return played_likelihood(filter_circuit(*job.model, job.model_name, design), design, drawn_recording(*job.model),
+  return played_likelihood(filter_circuit(job.model, job.model_name, design), design, drawn_recording(*job.model),
                            arguments.where());
 }
 
@@ -140,18 +140,14 @@ ExitCode run_rtl(const Arguments& arguments) {
   Output* json = outputs.open(arguments.text("--json"));
   Output* report = outputs.open(arguments.text("--report"));
   CircuitReport found{job.model_name, arguments.command_line(), design, {}, {}, {}};
-<<<<<<< HEAD
   const FilterCircuit circuit = filter_circuit(job.model, job.model_name, design);
-  if (family) found.cost = times(design.instances, hardware::cost_of(*circuit.machine, *family));
-=======
-  const FilterCircuit circuit = filter_circuit(*job.model, job.model_name, design);
->>>>>>> 77f101568ed9e905129aa1acf05cdbe7774926d6
   if (arguments.given("--simulate"))
     found.simulation =
         simulated_run(circuit, design, job.recording, arguments.text("--simulate"), family == hardware::Family::kXc7);
   if (family)
-    found.cost = hardware::cost_of(*circuit.machine, *family,
-                                   found.simulation ? found.simulation->activity : hardware::Activity{});
+    found.cost = times(design.instances,
+                       hardware::cost_of(*circuit.machine, *family,
+                                         found.simulation ? found.simulation->activity : hardware::Activity{}));
   if (job.truth) found.summary = summarise(found.simulation->record, &*job.truth);
   if (arguments.given("--out"))
     write_design(outputs, arguments.text("--out"), circuit, found,

@@ -62,17 +62,12 @@ std::vector<OptionSpec> circuit_options() {
       {"--draws", "Q", "", "imh: proposals a step beside the burn-in, at least N [N]", "Circuit"},
       {"--burn-in", "NB", "0", "imh: proposals that the chain forgets", "Circuit"},
       {"--chain-mean", "", "", "imh: estimate from the kept states instead of all weighted proposals", "Circuit"},
-<<<<<<< HEAD
       {"--overlap", "", "", "imh: begin a step while the one before is still decided on", "Circuit"},
       {"--proposal", "NAME", "prior", "auxiliary: where new particles come from (see mote models NAME)", "Circuit"},
       {"--lanes", "L", "", "imh-parallel: chains, imh-chain: pairs, sisr-lanes: lanes, a power of two [4]", "Circuit"},
       {"--instances", "I", "1", "circuits side by side, one for each copy of ungm with --set copies=2", "Circuit"},
       {"--seed", "S", "1", "seed of the circuit's generators; same seed, same words", "Circuit"},
-=======
-      {"--lanes", "L", "", "imh-parallel: chains, sisr-lanes: lanes, a power of two [4]", "Circuit"},
-      {"--seed", "S", "1", "seed of the circuit's generators; same seed, same words", "Circuit"},
       {"--registers", "KIND", "ports", "how registers are reached: ports or axi-lite (an AXI4-Lite bus)", "Circuit"},
->>>>>>> 77f101568ed9e905129aa1acf05cdbe7774926d6
       {"--synth", "FAMILY", "", "what it takes of a device: xc7, ice40 or ecp5 (Yosys, nextpnr) [none]", "Checks"}};
 }
 
@@ -94,6 +89,9 @@ CircuitDesign circuit_design_from(const Arguments& arguments) {
   design.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 0, 9223372036854775807LL));
   design.lanes = lanes_from(arguments, design);
   design.access = static_cast<hardware::RegisterAccess>(arguments.choice("--registers", {"ports", "axi-lite"}));
+  if (design.access == hardware::RegisterAccess::kAxiLite && design.instances > 1)
+    throw Refusal(ExitCode::kWrongUse,
+                  {arguments.where(), "--registers", "ports with --instances", "\"axi-lite\"", "Leave it out."});
   refuse_unread(arguments, design);
   refuse_uneven(arguments, design);
   return design;

@@ -59,10 +59,10 @@ struct Architecture {
   std::string (*range)(const Capacity&);                  ///< of its registers, for the data sheet
   Capacity (*capacity)(const RunRegisters& most, unsigned lanes);
   std::unique_ptr<Golden> (*golden)(const Arithmetic&, std::uint64_t seed, const Capacity&);
-<<<<<<< HEAD
-  bool folded = false;         ///< one chain before all lanes
-  unsigned stages_a_lane = 0;  ///< that each lane adds to the stages
-  bool pairs = false;          ///< weighs pairs of state and parent, so that any proposal will do
+  bool folded = false;             ///< one chain before all lanes
+  unsigned stages_a_lane = 0;      ///< that each lane adds to the stages
+  bool pairs = false;              ///< weighs pairs of state and parent, so that any proposal will do
+  std::string_view c_filter = {};  ///< its golden model in C: a file of machine/golden
 
   /// How its chains are fed.
   ImhLanes fed(const Capacity& c) const { return {c.lanes, Parents::kBanked, folded, c.overlapped}; }
@@ -72,9 +72,6 @@ struct Architecture {
   }
   /// Of those, the proposals that chains may refuse: all but each one's first.
   std::uint64_t decided(const RunRegisters& r, const Capacity& c) const { return offered(r, c) - fed(c).chains(); }
-=======
-  std::string_view c_filter = {};  ///< its golden model in C: a file of machine/golden
->>>>>>> 77f101568ed9e905129aa1acf05cdbe7774926d6
 };
 
 /// All kinds, the simplest first.

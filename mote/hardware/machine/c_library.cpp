@@ -140,7 +140,7 @@ std::vector<DesignFile> c_library(const Machine& machine, const RunRegisters& pl
   const ModelCircuit& model = machine.model();
   const Architecture& architecture = machine.architecture();
   const std::string filter(architecture.c_filter);
-  if (filter.empty()) return {};
+  if (filter.empty() || machine.capacity().overlapped) return {};
   const std::string& name = machine.name();
   const std::map<std::string, std::string> places{
       {"name", name},

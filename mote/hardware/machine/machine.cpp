@@ -113,22 +113,14 @@ void refuse_wide_sums(const Formats& f, const Capacity& capacity) {
 }  // namespace
 
 Machine::Machine(ModelCircuit model, const Architecture& architecture, const RunRegisters& most, std::uint64_t seed,
-<<<<<<< HEAD
-                 unsigned lanes, bool overlapped)
-=======
-                 unsigned lanes, RegisterAccess access)
->>>>>>> 77f101568ed9e905129aa1acf05cdbe7774926d6
+                 unsigned lanes, bool overlapped, RegisterAccess access)
     : name_("mote_" + model.name + "_" + std::string(architecture.name)),
       model_(std::move(model)),
       architecture_(&architecture),
       capacity_(architecture.capacity(most, lanes)),
-<<<<<<< HEAD
-      seed_(seed) {
-  capacity_.overlapped = overlapped;
-=======
       seed_(seed),
       access_(access) {
->>>>>>> 77f101568ed9e905129aa1acf05cdbe7774926d6
+  capacity_.overlapped = overlapped;
   std::replace(name_.begin(), name_.end(), '-', '_');
   refuse_wide_sums(formats(), capacity_);
 }

@@ -27,11 +27,7 @@ class Machine {
  public:
   /// shape   most: the most that registers may be told
   Machine(ModelCircuit model, const Architecture& architecture, const RunRegisters& most, std::uint64_t seed = 1,
-<<<<<<< HEAD
-          unsigned lanes = 1, bool overlapped = false);
-=======
-          unsigned lanes = 1, RegisterAccess access = RegisterAccess::kPorts);
->>>>>>> 77f101568ed9e905129aa1acf05cdbe7774926d6
+          unsigned lanes = 1, bool overlapped = false, RegisterAccess access = RegisterAccess::kPorts);
 
   /// Of the filter, whose registers are ports; and of the module around it where they are on a bus.
   const std::string& name() const { return name_; }

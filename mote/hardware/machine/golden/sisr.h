@@ -27,13 +27,13 @@ static void take_parent(struct filter *f, uint32_t child, uint32_t parent) {
   for (int w = 0; w < StateWords; ++w) f->parents[child][w] = f->set[parent][w];
 }
 
-static uint32_t reciprocal_entry(uint32_t i) { return (UINT32_C(1) << 25) / (128 + i) - 5; }
+static uint32_t reciprocal_entry(uint32_t i) { return (UINT32_C(1) << 26) / (256 + i) - 1; }
 
 // 2^35 / x to 17 bits, x of 18 bits with the top one set.
 static uint32_t reciprocal_of(uint32_t x) {
-  const uint32_t i = (x >> 10) & 127;
+  const uint32_t i = (x >> 9) & 255;
   const uint32_t entry = reciprocal_entry(i);
-  return ((entry << 10) - (entry - reciprocal_entry(i + 1)) * (x & 1023)) >> 10;
+  return ((entry << 9) - (entry - reciprocal_entry(i + 1)) * (x & 511)) >> 9;
 }
 
 // A weight at the last scale, whole bytes higher.
