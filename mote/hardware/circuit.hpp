@@ -45,10 +45,11 @@ void append_format(std::vector<Parameter>& parameters, const std::string& name, 
 /// Nearest and Saturate.
 void append_finish(std::vector<Parameter>& parameters, const Finish& finish);
 
-/// A module that was generated for its user: its name and its SystemVerilog.
+/// A module that was generated for its user: its name, its SystemVerilog, and the C function of the same name.
 struct Source {
   std::string name;
   std::string text;
+  std::string c;
 };
 
 /// An instance to be. Every module has the clock clk_i; one word a clock goes in and, `latency` clocks later, out.

@@ -4,6 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "mote/hardware/c_call.hpp"
+
 namespace mote::hardware {
 namespace {
 
@@ -140,6 +142,30 @@ std::string Compound::text() const {
   return writer.body;
 }
 
+/// The twin in C:  void NAME(tables, inputs, outputs), where each operator is called in turn (c_call.hpp).
+std::string Compound::c_function() const {
+  std::string head = "static void " + name_ + "(const mote_entry *const *tables";
+  std::string body = "  (void)tables;\n";
+  std::size_t table = 0;
+  for (const std::size_t n : inputs_) head += ", int64_t " + wire_name({n, 0});
+  for (const Output& output : outputs_) head += ", int64_t *" + output.port.name;
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    const Node& node = nodes_[n];
+    if (node.fixed) {
+      body += "  const int64_t " + wire_name({n, 0}) + " = INT64_C(" + std::to_string(node.word) + ");\n";
+    } else if (node.twin != nullptr) {
+      std::vector<std::string> in, out;
+      for (const Wire& wire : node.operands) in.push_back(wire_name(wire));
+      for (std::size_t p = 0; p < node.circuit.outputs.size(); ++p) out.push_back(wire_name({n, p}));
+      body += c_call(node.circuit, table, in, out);
+      table += node.circuit.memories.size();
+    }
+    if (node.twin == nullptr) body += "  (void)" + wire_name({n, 0}) + ";\n";
+  }
+  for (const Output& output : outputs_) body += "  *" + output.port.name + " = " + wire_name(output.wire) + ";\n";
+  return head + ") {\n" + body + "}\n";
+}
+
 Circuit Compound::circuit() const {
   Circuit whole{name_, {}, {}, {}, latency()};
   std::string ports = "    input logic clk_i";
@@ -165,8 +191,9 @@ Circuit Compound::circuit() const {
   }
   const std::string parameters = tables.empty() ? "" : " #(\n" + tables + "\n)";
   const std::string sheet = "// " + name_ + ": latency " + std::to_string(whole.latency) + ", one row a clock.\n";
-  whole.sources.push_back(
-      {name_, sheet + "module " + name_ + parameters + " (\n" + ports + "\n);\n" + text() + "endmodule\n"});
+  whole.sources.push_back({name_,
+                           sheet + "module " + name_ + parameters + " (\n" + ports + "\n);\n" + text() + "endmodule\n",
+                           c_function()});
   return whole;
 }
 

@@ -63,6 +63,7 @@ class Compound {
   Wire append(const Circuit& circuit, Twin twin, const std::vector<Wire>& operands);
   int latency() const;
   std::string text() const;
+  std::string c_function() const;
 
   std::string name_;
   std::vector<Node> nodes_;

@@ -72,13 +72,37 @@ std::string surroundings(const Circuit& circuit) {
          out_top + "];\n  end\nendmodule\n";
 }
 
-double clock_of(const std::string& log) {
+double clock_of(const std::string& router, const std::string& log) {
   const std::string key = "Max frequency for clock";
   const auto line = log.rfind(key);
   const auto colon = log.find("': ", line);
   if (line == std::string::npos || colon == std::string::npos)
-    throw Refusal(ExitCode::kOutsideTool, {"nextpnr-ice40", "", "a clock rate", "none", "Look at its messages."});
+    throw Refusal(ExitCode::kOutsideTool, {router, "", "a clock rate", "none", "Look at its messages."});
   return std::stod(log.substr(colon + 3));
+}
+
+/// A device family: how it is synthesised for, and by what it is routed.
+struct Router {
+  const char* synthesis;
+  const char* look_up;  ///< the kind of its look-up tables
+  std::string program;
+  std::vector<std::string> device;
+};
+
+Routed routed(const Circuit& circuit, const Router& router, int seed) {
+  const ScratchFolder scratch;
+  const std::string folder = scratch.path().string() + "/";
+  write_bench(folder, "core", {circuit});
+  write_text(folder + "around.sv", surroundings(circuit));
+  const auto cells =
+      cells_after(folder, std::string(router.synthesis) + " -top around -json " + folder + "netlist.json");
+  std::vector<std::string> words = router.device;
+  for (const std::string& word : {std::string("--seed"), std::to_string(seed), std::string("--freq"),
+                                  std::string("150"), std::string("--timing-allow-fail"), std::string("--json"),
+                                  folder + "netlist.json", std::string("--log"), folder + "log.txt", std::string("-q")})
+    words.push_back(word);
+  run_tool(router.program, router.program, words);
+  return {total(cells, {router.look_up}), clock_of(router.program, read_text(folder + "log.txt"))};
 }
 
 }  // namespace
@@ -116,15 +140,12 @@ Area xc7_area(const Circuit& circuit) {
 }
 
 Routed ice40_routed(const Circuit& circuit, int seed) {
-  const ScratchFolder scratch;
-  const std::string folder = scratch.path().string() + "/";
-  write_bench(folder, "core", {circuit});
-  write_text(folder + "around.sv", surroundings(circuit));
-  const auto cells = cells_after(folder, "synth_ice40 -top around -json " + folder + "netlist.json");
-  run_tool("nextpnr-ice40", "nextpnr-ice40",
-           {"--hx8k", "--package", "ct256", "--seed", std::to_string(seed), "--freq", "150", "--timing-allow-fail",
-            "--json", folder + "netlist.json", "--log", folder + "log.txt", "-q"});
-  return {total(cells, {"SB_LUT4"}), clock_of(read_text(folder + "log.txt"))};
+  return routed(circuit, {"synth_ice40", "SB_LUT4", "nextpnr-ice40", {"--hx8k", "--package", "ct256"}}, seed);
+}
+
+Routed ecp5_routed(const Circuit& circuit, int seed) {
+  return routed(circuit, {"synth_ecp5", "LUT4", "nextpnr-ecp5", {"--25k", "--package", "CABGA381", "--speed", "6"}},
+                seed);
 }
 
 }  // namespace mote::hardware

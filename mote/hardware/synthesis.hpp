@@ -37,14 +37,19 @@ int total(const std::map<std::string, int>& cells, const std::vector<std::string
 /// The area of those of synth_xilinx.
 Area xc7_area(const std::map<std::string, int>& cells);
 
-/// A circuit placed and routed on an iCE40 HX8K (no DSP blocks: products are logic), between shift registers.
+/// A circuit placed and routed between shift registers.
 struct Routed {
   int luts = 0;  ///< look-up tables of the circuit and its surroundings
   double mhz = 0;
 };
 
+/// On an iCE40 HX8K, which has no DSP blocks: products are logic.
+///
 /// error   Refusal (kOutsideTool) when yosys or nextpnr-ice40 is missing or fails (a circuit that is too large)
 /// cost    5 to 60 s
 Routed ice40_routed(const Circuit& circuit, int seed = 1);
+
+/// On an ECP5-25F of speed grade 6, by nextpnr-ecp5, which Debian 12 has no package of.
+Routed ecp5_routed(const Circuit& circuit, int seed = 1);
 
 }  // namespace mote::hardware

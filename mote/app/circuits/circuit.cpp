@@ -58,7 +58,7 @@ FilterCircuit filter_circuit(const std::shared_ptr<const CatalogueModel>& model,
   const auto machine = [&](unsigned instance) {
     return std::make_shared<hardware::Machine>(model_circuit(identifier(name), circuit), *design.architecture,
                                                design.registers, seed_of_instance(design.seed, instance), design.lanes,
-                                               design.variant);
+                                               design.variant, design.access);
   };
   circuit.machine = machine(0);
   for (unsigned i = 1; i < design.instances; ++i) circuit.others.push_back(machine(i));

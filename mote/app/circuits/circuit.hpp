@@ -21,6 +21,7 @@ struct CircuitDesign {
   unsigned instances = 1;          ///< for a model of so many independent copies: a circuit each, side by side
   std::string where = "mote rtl";  ///< who asks for it, for refusals
   std::string proposal = "prior";  ///< of an architecture whose weights are those of pairs
+  hardware::RegisterAccess access = hardware::RegisterAccess::kPorts;
 };
 
 /// A circuit, and what the host knows of its model.

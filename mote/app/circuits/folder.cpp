@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -11,21 +10,15 @@
 #include "mote/base/filled_in.hpp"
 #include "mote/base/refusal.hpp"
 #include "mote/hardware/machine/bits.hpp"
+#include "mote/hardware/machine/c_library.hpp"
 #include "mote/hardware/machine/templates.hpp"
 
 namespace mote {
 namespace {
 
 namespace fs = std::filesystem;
-using Files = std::map<std::string, std::string>;
 
 constexpr const char* kMark = "circuit.json";  // only designs have one
-
-std::string hex_of(const std::vector<std::uint32_t>& words) {
-  std::string text;
-  for (auto word = words.rbegin(); word != words.rend(); ++word) text += fmt::format("{:08x}", *word);
-  return text + '\n';
-}
 
 /// What the golden model makes of a recording, as a testbench compares it.
 struct Vectors {
@@ -75,20 +68,61 @@ Vectors vectors_of(const FilterCircuit& circuit, const CircuitDesign& design, un
   return vectors;
 }
 
-std::string register_values(const hardware::Architecture& architecture, const hardware::RunRegisters& registers) {
-  std::string text;
+std::string literal_of(const hardware::Register& one, const hardware::RunRegisters& registers) {
+  return one.flag ? fmt::format("1'b{}", one.value(registers)) : fmt::format("{}", one.value(registers));
+}
+
+/// How a testbench reaches the registers: what it declares, connects and does to start a run.
+struct RegisterBench {
+  std::string declared, connections, start;
+};
+
+RegisterBench port_bench(const hardware::Architecture& architecture, const hardware::RunRegisters& registers) {
+  RegisterBench bench{"  logic start = 1'b0, busy;\n", ".start_i(start), .steps_i(16'(Steps)), ",
+                      "    start <= 1'b1;\n    @(posedge clk);\n    start <= 1'b0;\n"};
   for (const hardware::Register& one : architecture.registers)
-    text +=
-        fmt::format(".{}_i({}), ", one.name,
-                    one.flag ? fmt::format("1'b{}", one.value(registers)) : fmt::format("{}", one.value(registers)));
+    bench.connections += fmt::format(".{}_i({}), ", one.name, literal_of(one, registers));
+  bench.connections += ".busy_o(busy),";
+  return bench;
+}
+
+RegisterBench bus_bench(const hardware::Machine& machine, const hardware::RunRegisters& registers) {
+  RegisterBench bench{std::string(hardware::machine_template("testbench_axi_lite.sv.in")),
+                      std::string(hardware::machine_template("testbench_axi_lite_ports.sv.in")),
+                      "    write(4, 32'(Steps));\n"};
+  bench.declared = filled_in(bench.declared, {{"address_top", fmt::format("{}", machine.address_bits() - 1)}});
+  unsigned address = 8;
+  for (const hardware::Register& one : machine.architecture().registers) {
+    bench.start += fmt::format("    write({}, 32'd{});\n", address, one.value(registers));
+    address += 4;
+  }
+  bench.start += "    write(0, 32'd1);\n";
+  return bench;
+}
+
+bool on_bus(const hardware::Machine& machine) { return machine.access() == hardware::RegisterAccess::kAxiLite; }
+
+std::string register_table(const hardware::Machine& machine, const hardware::RunRegisters& registers) {
+  const bool bus = on_bus(machine);
+  std::string text =
+      bus ? "\n| address | register | holds | here |\n|---|---|---|---|\n| 0x00 | `control` | write 1: start; "
+            "reads 1 while a run goes on | |\n| 0x04 | `steps` | steps of a run, at most 65535 | |\n"
+          : "\n| register | holds | here |\n|---|---|---|\n";
+  unsigned address = 8;
+  for (const hardware::Register& one : machine.architecture().registers) {
+    const std::string name = bus ? fmt::format("0x{:02x} | `{}`", address, one.name) : fmt::format("`{}_i`", one.name);
+    text += fmt::format("| {} | {} | {} |\n", name, one.meaning, one.value(registers));
+    address += 4;
+  }
   return text;
 }
 
-std::string register_table(const hardware::Architecture& architecture, const hardware::RunRegisters& registers) {
-  std::string text = "\n| register | holds | here |\n|---|---|---|\n";
-  for (const hardware::Register& one : architecture.registers)
-    text += fmt::format("| `{}_i` | {} | {} |\n", one.name, one.meaning, one.value(registers));
-  return text;
+std::string how_to_run(bool bus) {
+  return bus ? "write the registers by AXI4-Lite, then 1 to address 0; send as many observations as `steps` says, take "
+               "as "
+               "many estimates. Address 0 reads 0 again behind the last one."
+             : "write the registers, raise `start_i` for a clock, send `steps_i` observations, take as many estimates. "
+               "`busy_o` falls behind the last one.";
 }
 
 std::string figure_table(const FilterCircuit& circuit, const CircuitReport& found) {
@@ -100,21 +134,25 @@ std::string figure_table(const FilterCircuit& circuit, const CircuitReport& foun
 
 std::string testbench_of(const hardware::Machine& machine, const CircuitDesign& design, const Vectors& vectors,
                          double period_ns) {
+  const RegisterBench bench =
+      on_bus(machine) ? bus_bench(machine, design.registers) : port_bench(machine.architecture(), design.registers);
   return filled_in(hardware::machine_template("testbench.sv.in"),
-                   {{"name", machine.name()},
+                   {{"top", machine.top_name()},
                     {"steps", fmt::format("{}", vectors.steps)},
                     {"kept", fmt::format("{}", vectors.kept)},
                     {"obs_top", fmt::format("{}", machine.observation_bits() - 1)},
                     {"est_top", fmt::format("{}", machine.estimate_bits() - 1)},
                     {"slot_top", fmt::format("{}", machine.capacity().slot_bits() - 1)},
                     {"state_top", fmt::format("{}", machine.particle_bits() - 1)},
-                    {"registers", register_values(machine.architecture(), design.registers)},
+                    {"registers", bench.declared},
+                    {"connections", bench.connections},
+                    {"start", bench.start},
                     {"half_period", fmt::format("{:.3f}", period_ns / 2)},
                     {"most_cycles", fmt::format("{}", 2 * vectors.cycles + 1000)}});
 }
 
 /// The module that holds all instances, and its own testbench in place of one circuit's.
-void add_instances(Files& files, const FilterCircuit& circuit, const CircuitDesign& design,
+void add_instances(DesignFiles& files, const FilterCircuit& circuit, const CircuitDesign& design,
                    const std::vector<Vectors>& all) {
   const hardware::Machine& machine = *circuit.machine;
   std::uint64_t cycles = 0;
@@ -132,32 +170,45 @@ void add_instances(Files& files, const FilterCircuit& circuit, const CircuitDesi
   }
 }
 
-Files files_of(const FilterCircuit& circuit, const CircuitReport& found, const std::vector<Vectors>& all) {
+DesignFiles files_of(const FilterCircuit& circuit, const CircuitReport& found, const std::vector<Vectors>& all) {
   const Vectors& vectors = all.front();
   const hardware::Machine& machine = *circuit.machine;
   const double period_ns = 1000 / found.cost.value_or(hardware::Cost{}).fmax_mhz.value_or(100);
+  const std::vector<hardware::DesignFile> golden = found.design.instances > 1
+                                                       ? std::vector<hardware::DesignFile>{}
+                                                       : hardware::c_library(machine, found.design.registers);
   const std::map<std::string, std::string> places{
       {"name", machine.name()},
+      {"golden_row", golden.empty() ? ""
+                                    : fmt::format("| `golden/` | the golden model as a library in C (`{}.h`): `sh "
+                                                  "golden/run.sh` compiles it and plays the same recording |\n",
+                                                  machine.name())},
+      {"top", machine.top_name()},
+      {"bus_row", on_bus(machine)
+                      ? fmt::format("\n| `rtl/{}.sv` | the same with its registers on AXI4-Lite |", machine.top_name())
+                      : ""},
+      {"run", how_to_run(on_bus(machine))},
       {"model", machine.model().name},
       {"meaning", std::string(machine.architecture().meaning)},
       {"command", found.command},
       {"part", "xc7a100tcsg324-1"},
       {"period", fmt::format("{:.3f}", period_ns)},
       {"figures", figure_table(circuit, found)},
-      {"registers", register_table(machine.architecture(), found.design.registers)},
+      {"registers", register_table(machine, found.design.registers)},
       {"weight_bits", fmt::format("{}", machine.formats().weight_bits)}};
   const auto filled = [&](const char* name) { return filled_in(hardware::machine_template(name), places); };
-  Files files{{"README.md", filled("README.md.in")},
-              {kMark, circuit_json(circuit, found).dump(2) + "\n"},
-              {machine.name() + ".xdc", filled("constraints.xdc.in")},
-              {"vivado.tcl", filled("vivado.tcl.in")},
-              {"testbench/run.sh", filled("run.sh.in")},
-              {"testbench/testbench.sv", testbench_of(machine, found.design, vectors, period_ns)},
-              {"testbench/observations.hex", vectors.observations},
-              {"testbench/estimates.hex", vectors.estimates},
-              {"testbench/particles.hex", vectors.particles}};
+  DesignFiles files{{"README.md", filled("README.md.in")},
+                    {kMark, circuit_json(circuit, found).dump(2) + "\n"},
+                    {machine.name() + ".xdc", filled("constraints.xdc.in")},
+                    {"vivado.tcl", filled("vivado.tcl.in")},
+                    {"testbench/run.sh", filled("run.sh.in")},
+                    {"testbench/testbench.sv", testbench_of(machine, found.design, vectors, period_ns)},
+                    {"testbench/observations.hex", vectors.observations},
+                    {"testbench/estimates.hex", vectors.estimates},
+                    {"testbench/particles.hex", vectors.particles}};
   for (const hardware::DesignFile& file : machine.modules("")) files["rtl/" + file.name] = file.text;
   for (const hardware::DesignFile& file : machine.tables()) files["tables/" + file.name] = file.text;
+  for (const hardware::DesignFile& file : golden) files["golden/" + file.name] = file.text;
   if (found.design.instances > 1) add_instances(files, circuit, found.design, all);
   if (found.simulation)
     files["estimates.csv"] = circuit_estimates_csv(found.simulation->record, machine.architecture().chain);
@@ -165,7 +216,7 @@ Files files_of(const FilterCircuit& circuit, const CircuitReport& found, const s
 }
 
 /// A folder that another program wrote keeps its files.
-void refuse_foreign(const fs::path& folder, const Files& files) {
+void refuse_foreign(const fs::path& folder, const DesignFiles& files) {
   if (fs::exists(folder / kMark)) return;
   for (const auto& [name, text] : files)
     if (fs::exists(folder / name))
@@ -173,10 +224,10 @@ void refuse_foreign(const fs::path& folder, const Files& files) {
                                              "a file " + name + " of something else", "Pass another --out."});
 }
 
-void make_folders(const fs::path& folder) {
-  for (const char* name : {"rtl", "tables", "testbench"}) {
+void make_folders(const fs::path& folder, const DesignFiles& files) {
+  for (const auto& [name, text] : files) {
     std::error_code error;
-    fs::create_directories(folder / name, error);
+    fs::create_directories((folder / name).parent_path(), error);
     if (error)
       throw Refusal(ExitCode::kCannotWrite,
                     {folder.string(), "", "a folder that can be made", error.message(), "Pass another --out."});
@@ -185,15 +236,24 @@ void make_folders(const fs::path& folder) {
 
 }  // namespace
 
+std::string hex_of(const std::vector<std::uint32_t>& words) {
+  std::string text;
+  for (auto word = words.rbegin(); word != words.rend(); ++word) text += fmt::format("{:08x}", *word);
+  return text + '\n';
+}
+
+void write_files(OutputSet& outputs, const std::string& folder, const DesignFiles& files) {
+  refuse_foreign(folder, files);
+  make_folders(folder, files);
+  for (const auto& [name, text] : files) outputs.open((fs::path(folder) / name).string())->write(text);
+}
+
 void write_design(OutputSet& outputs, const std::string& folder, const FilterCircuit& circuit,
                   const CircuitReport& found, const Recording& played, const std::string& where) {
   std::vector<Vectors> all;
   for (unsigned i = 0; i < found.design.instances; ++i)
     all.push_back(vectors_of(circuit, found.design, i, instance_of(circuit, found.design, played, i), where));
-  const Files files = files_of(circuit, found, all);
-  refuse_foreign(folder, files);
-  make_folders(folder);
-  for (const auto& [name, text] : files) outputs.open((fs::path(folder) / name).string())->write(text);
+  write_files(outputs, folder, files_of(circuit, found, all));
 }
 
 }  // namespace mote

@@ -35,11 +35,37 @@ report::Table bits_of(const std::string& title, const std::vector<hardware::Fiel
   return table;
 }
 
+const hardware::Activity* counted(const CircuitReport& found) {
+  return found.simulation && found.simulation->activity.measured ? &found.simulation->activity : nullptr;
+}
+
+std::string power_words(const CircuitReport& found) {
+  const hardware::Activity* activity = counted(found);
+  const std::string by = activity == nullptr ? "one bit in eight changing"
+                                             : fmt::format("{:.1f} % of all bits changing ({:.1f} % of multipliers')",
+                                                           100 * activity->fabric, 100 * activity->products);
+  return fmt::format("{:.0f} mW, an estimate by resources and {} a clock", *found.cost->power_mw, by);
+}
+
 }  // namespace
+
+void append_cost(std::vector<report::Fact>& facts, const hardware::Cost& cost) {
+  facts.push_back({"device", cost.device});
+  facts.push_back({"area", fmt::format("{} LUT, {} FF, {} DSP, {} BRAM_18K, {} IOB", cost.lut, cost.ff, cost.dsp,
+                                       cost.bram18, cost.iob)});
+  if (cost.fmax_mhz) facts.push_back({"clock", fmt::format("{:.1f} MHz", *cost.fmax_mhz)});
+  if (cost.sta_ns) facts.push_back({"sta", fmt::format("{:.2f} ns of logic by Yosys", *cost.sta_ns)});
+}
 
 std::optional<double> CircuitReport::milliseconds() const {
   if (!simulation || !cost || !cost->fmax_mhz) return std::nullopt;
   return static_cast<double>(simulation->agreement.cycles) / (1000 * *cost->fmax_mhz);
+}
+
+std::optional<double> CircuitReport::microjoules_per_step() const {
+  const auto ms = milliseconds();
+  if (!ms || !cost->power_mw) return std::nullopt;
+  return *cost->power_mw * *ms / static_cast<double>(simulation->record.predicted_steps);
 }
 
 std::vector<report::Fact> circuit_facts(const FilterCircuit& circuit, const CircuitReport& found) {
@@ -60,36 +86,44 @@ std::vector<report::Fact> circuit_facts(const FilterCircuit& circuit, const Circ
   for (const auto& [state, value] : rmse.items())
     facts.push_back({"rmse " + state, fmt::format("{:.4g}", value.get<double>())});
   if (const auto& c = found.cost) {
-    facts.push_back({"device", c->device});
-    facts.push_back({"area", fmt::format("{} LUT, {} FF, {} DSP, {} BRAM_18K", c->lut, c->ff, c->dsp, c->bram18)});
-    if (c->fmax_mhz) facts.push_back({"clock", fmt::format("{:.1f} MHz", *c->fmax_mhz)});
-    if (c->power_mw) facts.push_back({"power", fmt::format("{:.0f} mW, an estimate by resources", *c->power_mw)});
+    append_cost(facts, *c);
+    if (c->power_mw) facts.push_back({"power", power_words(found)});
   }
   if (const auto ms = found.milliseconds()) facts.push_back({"time", fmt::format("{:.4g} ms", *ms)});
+  if (const auto uj = found.microjoules_per_step()) facts.push_back({"energy", fmt::format("{:.3g} uJ a step", *uj)});
   return facts;
 }
 
+Json cost_json(const std::optional<hardware::Cost>& cost) {
+  if (!cost) {
+    Json json = Json::object();
+    for (const char* key : {"lut", "ff", "dsp", "bram18", "iob", "fmax_mhz", "sta_ns", "device", "power_mw"})
+      json[key] = nullptr;
+    return json;
+  }
+  return {{"lut", cost->lut},
+          {"ff", cost->ff},
+          {"dsp", cost->dsp},
+          {"bram18", cost->bram18},
+          {"iob", cost->iob},
+          {"fmax_mhz", or_null(cost->fmax_mhz)},
+          {"sta_ns", or_null(cost->sta_ns)},
+          {"device", cost->device},
+          {"power_mw", or_null(cost->power_mw)}};
+}
+
 Json circuit_json(const FilterCircuit& circuit, const CircuitReport& found) {
-  Json json{{"cycles", nullptr},   {"predicted_cycles", nullptr},
-            {"compared", nullptr}, {"mismatches", nullptr},
-            {"lut", nullptr},      {"ff", nullptr},
-            {"dsp", nullptr},      {"bram18", nullptr},
-            {"fmax_mhz", nullptr}, {"device", nullptr},
-            {"power_mw", nullptr}};
+  Json json = cost_json(found.cost);
+  json.update(Json{{"cycles", nullptr}, {"predicted_cycles", nullptr}, {"compared", nullptr}, {"mismatches", nullptr}});
   if (const auto& s = found.simulation)
     json.update(Json{{"cycles", s->agreement.cycles},
                      {"predicted_cycles", s->agreement.predicted_cycles},
                      {"compared", s->agreement.compared},
                      {"mismatches", s->agreement.mismatches}});
-  if (const auto& c = found.cost)
-    json.update(Json{{"lut", c->lut},
-                     {"ff", c->ff},
-                     {"dsp", c->dsp},
-                     {"bram18", c->bram18},
-                     {"fmax_mhz", or_null(c->fmax_mhz)},
-                     {"device", c->device},
-                     {"power_mw", or_null(c->power_mw)}});
   json["rmse"] = rmse_json(found);
+  const hardware::Activity* activity = counted(found);
+  json["switching"] = activity == nullptr ? Json(nullptr) : Json(activity->fabric);
+  json["uj_per_step"] = or_null(found.microjoules_per_step());
   json["stages"] = circuit.machine->stages();
   json["milliseconds"] = or_null(found.milliseconds());
   return json;

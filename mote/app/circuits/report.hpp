@@ -21,11 +21,19 @@ struct CircuitReport {
 
   /// Of the simulated run, at the clock that was found.
   std::optional<double> milliseconds() const;
+  /// Of a step of it, by the estimate of power.
+  std::optional<double> microjoules_per_step() const;
 };
 
-/// {cycles, predicted_cycles, compared, mismatches, lut, ff, dsp, bram18, fmax_mhz, device, rmse, power_mw, stages,
-/// milliseconds}; what was not asked for is null.
+/// {cycles, predicted_cycles, compared, mismatches, lut, ff, dsp, bram18, iob, fmax_mhz, sta_ns, device, rmse,
+/// power_mw, switching, uj_per_step, stages, milliseconds}; what was not asked for is null.
 nlohmann::json circuit_json(const FilterCircuit& circuit, const CircuitReport& found);
+
+/// Of them what a device takes: {lut, ff, dsp, bram18, iob, fmax_mhz, sta_ns, device, power_mw}.
+nlohmann::json cost_json(const std::optional<hardware::Cost>& cost);
+
+/// Device, area and clock, in words.
+void append_cost(std::vector<report::Fact>& facts, const hardware::Cost& cost);
 
 /// Name and value of every figure, in words.
 std::vector<report::Fact> circuit_facts(const FilterCircuit& circuit, const CircuitReport& found);

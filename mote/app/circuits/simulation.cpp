@@ -97,17 +97,19 @@ RunRecord run_of_instances(const FilterCircuit& circuit, const CircuitDesign& de
 }  // namespace
 
 CircuitSimulation simulated_run(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
-                                const std::string& where) {
+                                const std::string& where, bool counts_changes) {
   std::vector<hardware::Agreement> agreements;
+  hardware::Activity activity;
   const auto simulate = [&](unsigned i, const std::vector<std::vector<std::int64_t>>& observed) {
     const hardware::Machine& machine = circuit.instance(i);
-    hardware::Simulator simulator(machine);
+    hardware::Simulator simulator(machine, counts_changes);
     const hardware::CircuitRun run = simulator.run(design.registers, observed);
+    activity = run.activity;
     agreements.push_back(hardware::agreement(run, *machine.golden(), design.registers, observed));
     return run.estimates;
   };
   RunRecord record = run_of_instances(circuit, design, recording, where, simulate);
-  return {side_by_side(agreements), std::move(record)};
+  return {side_by_side(agreements), activity, std::move(record)};
 }
 
 namespace {

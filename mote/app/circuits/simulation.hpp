@@ -10,6 +10,7 @@ namespace mote {
 /// What came of a recording.
 struct CircuitSimulation {
   hardware::Agreement agreement;
+  hardware::Activity activity;
   RunRecord record;  ///< means, evidence and acceptance; no deviations, no effective sample sizes
 };
 
@@ -19,11 +20,11 @@ struct CircuitSimulation {
 std::vector<std::vector<std::int64_t>> observed_by(const FilterCircuit& circuit, const Recording& recording,
                                                    const std::string& where);
 
-/// Simulates a recording.
+/// Simulates a recording; counts_changes: of every bit, for an estimate of power, which takes a few times as long.
 ///
 /// error   as observed_by(); Refusal (kOutsideTool) when Verilator is missing or fails
 CircuitSimulation simulated_run(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
-                                const std::string& where);
+                                const std::string& where, bool counts_changes = false);
 
 /// The golden model's run of a recording by the design's seed, without a simulation: what the circuit would give.
 RunRecord golden_run(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,

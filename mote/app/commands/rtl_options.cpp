@@ -95,20 +95,22 @@ std::uint32_t exchange_from(const Arguments& arguments, const CircuitDesign& des
 }  // namespace
 
 std::vector<OptionSpec> circuit_options() {
-  return {{"--arch", "KIND", "imh", "kind of filter: " + listed(architecture_names()), "Circuit"},
-          {"-n,--particles", "N", "1000", "particles, from 1 to 65536", "Circuit"},
-          {"--draws", "Q", "", "imh: proposals a step beside the burn-in, at least N [N]", "Circuit"},
-          {"--burn-in", "NB", "0", "imh: proposals that the chain forgets", "Circuit"},
-          {"--chain-mean", "", "", "imh: estimate from the kept states instead of all weighted proposals", "Circuit"},
-          {"--overlap", "", "", "imh: begin a step while the one before is still decided on", "Circuit"},
-          {"--proposal", "NAME", "prior", "auxiliary: where new particles come from (see mote models NAME)", "Circuit"},
-          {"--lanes", "L", "", "chains, pairs of imh-chain, lanes or groups: a power of two [4]", "Circuit"},
-          {"--exchange", "M", "", "groups: children that each group has from the one before it, to N/L [1]", "Circuit"},
-          {"--resampler", "KIND", "", "sisr, sisr-plain, groups: " + listed(kResamplers) + " [systematic]", "Circuit"},
-          {"--loops", "KIND", "", "sisr-plain: " + listed(kLoops) + " [separate]", "Circuit"},
-          {"--instances", "I", "1", "circuits side by side, one for each copy of ungm with --set copies=2", "Circuit"},
-          {"--seed", "S", "1", "seed of the circuit's generators; same seed, same words", "Circuit"},
-          {"--synth", "FAMILY", "", "what it takes of a device: xc7, ice40 or ecp5 (Yosys, nextpnr) [none]", "Checks"}};
+  return {
+      {"--arch", "KIND", "imh", "kind of filter: " + listed(architecture_names()), "Circuit"},
+      {"-n,--particles", "N", "1000", "particles, from 1 to 65536", "Circuit"},
+      {"--draws", "Q", "", "imh: proposals a step beside the burn-in, at least N [N]", "Circuit"},
+      {"--burn-in", "NB", "0", "imh: proposals that the chain forgets", "Circuit"},
+      {"--chain-mean", "", "", "imh: estimate from the kept states instead of all weighted proposals", "Circuit"},
+      {"--overlap", "", "", "imh: begin a step while the one before is still decided on", "Circuit"},
+      {"--proposal", "NAME", "prior", "auxiliary: where new particles come from (see mote models NAME)", "Circuit"},
+      {"--lanes", "L", "", "chains, pairs of imh-chain, lanes or groups: a power of two [4]", "Circuit"},
+      {"--exchange", "M", "", "groups: children that each group has from the one before it, to N/L [1]", "Circuit"},
+      {"--resampler", "KIND", "", "sisr, sisr-plain, groups: " + listed(kResamplers) + " [systematic]", "Circuit"},
+      {"--loops", "KIND", "", "sisr-plain: " + listed(kLoops) + " [separate]", "Circuit"},
+      {"--instances", "I", "1", "circuits side by side, one for each copy of ungm with --set copies=2", "Circuit"},
+      {"--seed", "S", "1", "seed of the circuit's generators; same seed, same words", "Circuit"},
+      {"--registers", "KIND", "ports", "how registers are reached: ports or axi-lite (an AXI4-Lite bus)", "Circuit"},
+      {"--synth", "FAMILY", "", "what it takes of a device: xc7, ice40 or ecp5 (Yosys, nextpnr) [none]", "Checks"}};
 }
 
 CircuitDesign circuit_design_from(const Arguments& arguments) {
@@ -126,6 +128,10 @@ CircuitDesign circuit_design_from(const Arguments& arguments) {
   design.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 0, 9223372036854775807LL));
   design.lanes = lanes_from(arguments, design);
   design.variant = variant_from(arguments);
+  design.access = static_cast<hardware::RegisterAccess>(arguments.choice("--registers", {"ports", "axi-lite"}));
+  if (design.access == hardware::RegisterAccess::kAxiLite && design.instances > 1)
+    throw Refusal(ExitCode::kWrongUse,
+                  {arguments.where(), "--registers", "ports with --instances", "\"axi-lite\"", "Leave it out."});
   refuse_uneven(arguments, design);
   design.registers.exchange = exchange_from(arguments, design);
   refuse_unread(arguments, design);

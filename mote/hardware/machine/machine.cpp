@@ -67,6 +67,23 @@ RegisterLines register_lines(const Architecture& architecture, const Capacity& c
   return lines;
 }
 
+/// The architecture's registers as words of a bus, steps in the first.
+RegisterLines bus_lines(const Architecture& architecture, const Capacity& capacity) {
+  RegisterLines lines{"//           0x04     steps, at most 65535\n", ""};
+  unsigned word = 1;
+  for (const Register& one : architecture.registers) {
+    const std::string name(one.name);
+    const unsigned at = 32 * word;
+    const unsigned top = at + (one.flag ? 0 : capacity.at);
+    constexpr const char* kHex = "0123456789abcdef";
+    const unsigned address = 4 * ++word;
+    lines.ports += std::string("//           0x") + kHex[address / 16 % 16] + kHex[address % 16] + "     " + name +
+                   ": " + std::string(one.meaning) + '\n';
+    lines.connections += "." + name + "_i(registers[" + std::to_string(top) + ":" + std::to_string(at) + "]), ";
+  }
+  return lines;
+}
+
 /// The parts of an estimate: their wires, what leads to them, and how they stand together.
 struct EstimateLines {
   std::string wires, connections, together;
@@ -96,12 +113,13 @@ void refuse_wide_sums(const Formats& f, const Capacity& capacity) {
 }  // namespace
 
 Machine::Machine(ModelCircuit model, const Architecture& architecture, const RunRegisters& most, std::uint64_t seed,
-                 unsigned lanes, const Variant& variant)
+                 unsigned lanes, const Variant& variant, RegisterAccess access)
     : name_("mote_" + model.name + "_" + std::string(architecture.name)),
       model_(std::move(model)),
       architecture_(&architecture),
       capacity_(architecture.capacity(most, lanes)),
-      seed_(seed) {
+      seed_(seed),
+      access_(access) {
   capacity_.variant = variant;
   std::replace(name_.begin(), name_.end(), '-', '_');
   refuse_wide_sums(formats(), capacity_);
@@ -134,6 +152,42 @@ std::vector<Field> Machine::estimate_fields() const {
   fields.push_back({"scale of the sum, quanta of 8 octaves", {true, as_int(f.log_bits) - 13, 0}});
   if (architecture_->chain) fields.push_back({"moves of the chain", {false, as_int(capacity_.at) + 1, 0}});
   return fields;
+}
+
+std::vector<Port> Machine::inputs() const {
+  std::vector<Port> ports;
+  if (access_ == RegisterAccess::kAxiLite) {
+    const int address = address_bits();
+    ports = {{"s_axi_awaddr_i", address}, {"s_axi_awvalid_i"}, {"s_axi_wdata_i", 32},
+             {"s_axi_wstrb_i", 4},        {"s_axi_wvalid_i"},  {"s_axi_bready_i"},
+             {"s_axi_araddr_i", address}, {"s_axi_arvalid_i"}, {"s_axi_rready_i"}};
+  } else {
+    ports = {{"start_i"}, {"steps_i", 16}};
+    for (const Register& one : architecture_->registers)
+      ports.push_back({std::string(one.name) + "_i", one.flag ? 1 : as_int(capacity_.at) + 1});
+  }
+  for (const Port& port : {Port{"obs_tdata_i", observation_bits()}, Port{"obs_tvalid_i"}, Port{"est_tready_i"}})
+    ports.push_back(port);
+  return ports;
+}
+
+std::vector<Port> Machine::outputs() const {
+  std::vector<Port> ports{{"busy_o"}};
+  if (access_ == RegisterAccess::kAxiLite)
+    ports = {{"s_axi_awready_o"}, {"s_axi_wready_o"},    {"s_axi_bresp_o", 2}, {"s_axi_bvalid_o"},
+             {"s_axi_arready_o"}, {"s_axi_rdata_o", 32}, {"s_axi_rresp_o", 2}, {"s_axi_rvalid_o"}};
+  for (const Port& port :
+       {Port{"obs_tready_o"}, Port{"est_tdata_o", estimate_bits()}, Port{"est_tvalid_o"}, Port{"est_tlast_o"},
+        Port{"set_valid_o"}, Port{"set_slot_o", as_int(capacity_.slot_bits())}, Port{"set_state_o", particle_bits()}})
+    ports.push_back(port);
+  return ports;
+}
+
+int Machine::pins() const {
+  int pins = 2;  // clock and reset
+  for (const auto& ports : {inputs(), outputs()})
+    for (const Port& port : ports) pins += port.width;
+  return pins;
 }
 
 std::vector<std::uint32_t> Machine::observation_words(Observed observed) const {
@@ -230,11 +284,29 @@ std::string Machine::top(const std::string& folder) const {
                     {"weigh", instantiation(model_.weigh, kWeighInstance, folder, model_.weigh_connections)}});
 }
 
+std::string Machine::axi_lite() const {
+  const RegisterLines bus = bus_lines(*architecture_, capacity_);
+  const int count = 1 + static_cast<int>(architecture_->registers.size());
+  return filled_in(machine_template("axi_lite.sv.in"), {{"name", top_name()},
+                                                        {"circuit", name_},
+                                                        {"map", bus.ports},
+                                                        {"connections", bus.connections},
+                                                        {"count", std::to_string(count)},
+                                                        {"address_width", std::to_string(address_bits())},
+                                                        {"address_top", top_bit(address_bits())},
+                                                        {"registers_top", top_bit(32 * count)},
+                                                        {"obs_top", top_bit(observation_bits())},
+                                                        {"est_top", top_bit(estimate_bits())},
+                                                        {"slot_top", top_bit(as_int(capacity_.slot_bits()))},
+                                                        {"state_top", top_bit(particle_bits())}});
+}
+
 std::vector<DesignFile> Machine::modules(const std::string& folder) const {
   std::vector<DesignFile> own;
   for (const Circuit* circuit : {&model_.propose, &model_.weigh})
     for (const Source& source : circuit->sources) own.push_back({source.name + ".sv", source.text});
   own.push_back({name_ + ".sv", top(folder)});
+  if (access_ == RegisterAccess::kAxiLite) own.push_back({top_name() + ".sv", axi_lite()});
   std::string text;
   for (const DesignFile& file : own) text += file.text;
   std::vector<DesignFile> all;

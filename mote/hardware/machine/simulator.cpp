@@ -14,10 +14,14 @@ namespace mote::hardware {
 namespace {
 
 /// The driver's header that knows the circuit's registers.
-std::string registers_header(const Architecture& architecture) {
+std::string registers_header(const Machine& machine) {
+  const auto& registers = machine.architecture().registers;
+  if (machine.access() == RegisterAccess::kAxiLite)
+    return "#pragma once\ninline constexpr unsigned kRegisters = " + std::to_string(registers.size()) +
+           ", kAddressBits = " + std::to_string(machine.address_bits()) + ";\n#include \"axi_lite.hpp\"\n";
   std::string text = "#pragma once\n\ntemplate <class Top, class Each>\nvoid for_registers(Top& top, Each each) {\n";
-  for (const Register& one : architecture.registers) text += "  each(top." + std::string(one.name) + "_i);\n";
-  return text + "}\n";
+  for (const Register& one : registers) text += "  each(top." + std::string(one.name) + "_i);\n";
+  return text + "}\n#include \"ports.hpp\"\n";
 }
 
 /// Takes down what the driver notes.
@@ -52,7 +56,10 @@ std::uint64_t differing(const Particles& a, const Particles& b) {
 
 }  // namespace
 
-Simulator::Simulator(const Machine& machine) : machine_(&machine) { build(); }
+Simulator::Simulator(const Machine& machine, bool counts_changes)
+    : machine_(&machine), counts_changes_(counts_changes) {
+  build();
+}
 
 Simulator::~Simulator() {
   if (library_ == nullptr) return;
@@ -64,37 +71,17 @@ void Simulator::build() {
   const std::string folder = folder_.path().string() + "/";
   for (const DesignFile& file : machine_->modules(folder)) write_text(folder + file.name, file.text);
   for (const DesignFile& file : machine_->tables()) write_text(folder + file.name, file.text);
-  for (const char* name : {"driver.cpp", "request.hpp"}) write_text(folder + name, std::string(machine_template(name)));
-  write_text(folder + "registers.hpp", registers_header(machine_->architecture()));
+  for (const char* name : {"driver.cpp", "request.hpp", "ports.hpp", "axi_lite.hpp"})
+    write_text(folder + name, std::string(machine_template(name)));
+  write_text(folder + "registers.hpp", registers_header(*machine_));
   std::string make = "OPT_FAST=-O1 OPT_SLOW=-O0 OPT_GLOBAL=-O1";
   if (on_path("ccache")) make += " OBJCACHE=ccache";
-  run_tool("verilator", "verilator",
-           {"--cc",
-            "--exe",
-            "--build",
-            "-Wall",
-            "-O3",
-            "--assert",
-            "--x-assign",
-            "fast",
-            "--top-module",
-            machine_->name(),
-            "--prefix",
-            "Vtop",
-            "--Mdir",
-            folder + "model",
-            "-y",
-            folder,
-            "-CFLAGS",
-            "-fPIC",
-            "-LDFLAGS",
-            "-shared",
-            "-MAKEFLAGS",
-            make,
-            "-o",
-            "circuit.so",
-            folder + machine_->name() + ".sv",
-            folder + "driver.cpp"});
+  std::vector<std::string> words{"--cc", "--exe", "--build", "-Wall", "-O3", "--assert", "--x-assign", "fast"};
+  if (counts_changes_) words.insert(words.end(), {"--coverage-toggle", "--coverage-max-width", "4096"});
+  words.insert(words.end(), {"--top-module", machine_->top_name(), "--prefix", "Vtop", "--Mdir", folder + "model", "-y",
+                             folder, "-CFLAGS", "-fPIC", "-LDFLAGS", "-shared", "-MAKEFLAGS", make, "-o", "circuit.so",
+                             folder + machine_->top_name() + ".sv", folder + "driver.cpp"});
+  run_tool("verilator", "verilator", words);
   library_ = dlopen((folder + "model/circuit.so").c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library_ == nullptr)
     throw Refusal(ExitCode::kOutsideTool, {"verilator", "", "a library that loads", dlerror(), "Reinstall verilator."});
@@ -123,9 +110,15 @@ CircuitRun Simulator::run(const RunRegisters& registers, const std::vector<std::
                         most_cycles,
                         &notes,
                         [](void* self, const std::uint32_t* words) { static_cast<Notes*>(self)->kept(words); },
-                        [](void* self, const std::uint32_t* words) { static_cast<Notes*>(self)->estimated(words); }};
+                        [](void* self, const std::uint32_t* words) { static_cast<Notes*>(self)->estimated(words); },
+                        [](void* self) { static_cast<Notes*>(self)->run->answered_wrong = true; }};
   using Run = std::uint64_t (*)(void*, const Request*);
   run.cycles = reinterpret_cast<Run>(dlsym(library_, "driver_run"))(driver_, &request);
+  if (counts_changes_) {
+    const std::string file = (folder_.path() / "changes.txt").string();
+    reinterpret_cast<void (*)(void*, const char*)>(dlsym(library_, "driver_write_changes"))(driver_, file.c_str());
+    run.activity = activity_of(read_text(file), run.cycles);
+  }
   run.complete = run.estimates.size() == observed.size();
   return run;
 }
@@ -141,6 +134,7 @@ Agreement agreement(const CircuitRun& run, Golden& golden, const RunRegisters& r
     found.mismatches += k < run.sets.size() ? differing(golden.set(), run.sets[k]) : words;
     found.mismatches += k >= run.estimates.size() || run.estimates[k] != estimate;
   }
+  found.mismatches += run.answered_wrong;
   found.cycles = run.cycles;
   found.predicted_cycles = golden.cycles();
   return found;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mote/base/scratch_folder.hpp"
+#include "mote/hardware/machine/activity.hpp"
 #include "mote/hardware/machine/machine.hpp"
 
 namespace mote::hardware {
@@ -21,6 +22,8 @@ struct CircuitRun {
   std::vector<Particles> sets;  ///< what was written to the particle memory, step by step
   std::uint64_t cycles = 0;     ///< from start_i to the last estimate
   bool complete = false;
+  Activity activity;            ///< where it was counted
+  bool answered_wrong = false;  ///< the registers' bus: a word or an answer
 };
 
 /// A circuit being simulated; its generators go on from run to run, until a reset.
@@ -29,7 +32,8 @@ struct CircuitRun {
 /// error   Refusal (kOutsideTool) when Verilator is missing, warns about the circuit (-Wall) or fails
 class Simulator {
  public:
-  explicit Simulator(const Machine& machine);
+  /// counts_changes: of every bit, which takes a few times as long.
+  explicit Simulator(const Machine& machine, bool counts_changes = false);
   ~Simulator();
   Simulator(const Simulator&) = delete;
   Simulator(Simulator&&) = delete;
@@ -45,6 +49,7 @@ class Simulator {
   void build();
 
   const Machine* machine_;
+  bool counts_changes_;
   ScratchFolder folder_;
   void* library_ = nullptr;
   void* driver_ = nullptr;
@@ -53,7 +58,7 @@ class Simulator {
 /// How a circuit and its golden model compare.
 struct Agreement {
   std::uint64_t compared = 0;    ///< words of the particle memory
-  std::uint64_t mismatches = 0;  ///< such words, and estimates, that differ or are missing
+  std::uint64_t mismatches = 0;  ///< such words, estimates and registers' answers that differ or are missing
   std::uint64_t cycles = 0;
   std::uint64_t predicted_cycles = 0;  ///< by the golden model, for streams that never wait
 };

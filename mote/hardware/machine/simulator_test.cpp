@@ -82,6 +82,27 @@ TEST_P(Machines, EqualTheirGoldenModels) {
       << "the twin";
 }
 
+/// claim   registers written and read over AXI4-Lite, whose both sides pause, start the same run; addresses outside the
+///         map and a start in mid-run are answered by errors and change nothing
+/// twin    the golden model of another N
+TEST(Machine, IsReachedOverABus) {
+  const Machine machine(local_level_circuit(), architectures().front(), kMost, 7, 1, false, RegisterAccess::kAxiLite);
+  Simulator circuit(machine);
+  const auto golden = machine.golden();
+  for (const unsigned pause : {0U, 120U}) {
+    const RunRegisters registers{60 + pause, 80 + pause, 5, false};
+    const auto observed = level_observations(6, pause);
+    const CircuitRun run = circuit.run(registers, observed, {pause, pause, 3});
+    EXPECT_FALSE(run.answered_wrong);
+    const Agreement found = agreement(run, *golden, registers, observed);
+    EXPECT_EQ(found.mismatches, 0U) << pause;
+    if (pause == 0) {
+      EXPECT_EQ(found.cycles, found.predicted_cycles);
+    }
+    EXPECT_NE(agreement(run, *machine.golden(), {60 + pause, 81 + pause, 5, false}, observed).mismatches, 0U);
+  }
+}
+
 TEST_P(Machines, NameWhatTheyNeedAndNoMore) {
   const Machine machine = GetParam().machine(1, 1);
   std::string names;

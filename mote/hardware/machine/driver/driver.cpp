@@ -7,6 +7,9 @@
 #include "registers.hpp"
 #include "request.hpp"
 #include "verilated.h"
+#if VM_COVERAGE
+#include "verilated_cov.h"
+#endif
 
 namespace {
 
@@ -33,13 +36,12 @@ void take(const VlWide<N>& port, std::vector<std::uint32_t>& words) {
 
 class Driver {
  public:
-  Driver() : top_(&context_) { reset(); }
+  Driver() : top_(&context_), registers_(top_) { reset(); }
   ~Driver() { top_.final(); }
 
   void reset() {
     top_.clk_i = 0;
     top_.rst_ni = 0;
-    top_.start_i = 0;
     top_.obs_tvalid_i = 0;
     top_.est_tready_i = 0;
     top_.eval();
@@ -50,12 +52,12 @@ class Driver {
 
   /// Cycles from start_i to the last estimate.
   std::uint64_t run(const mote::hardware::Request& request) {
+    forget_changes();
     std::mt19937_64 random(request.seed);
     const auto goes = [&](std::uint32_t pause) { return (random() & 255) >= pause; };
-    const std::uint32_t* word = request.registers;
-    for_registers(top_, [&](auto& port) { put(port, word++); });
-    top_.steps_i = static_cast<SData>(request.steps);
-    top_.start_i = 1;
+    const auto clocks = [this] { tick(); };
+    const auto bus_goes = [&] { return goes(request.observation_pause); };
+    bool answers = registers_.begin(request, clocks, bus_goes);
     std::uint32_t seen = 0;
     bool offers = false;
     bool done = false;
@@ -65,6 +67,7 @@ class Driver {
       top_.obs_tvalid_i = offers;
       if (offers) put(top_.obs_tdata_i, request.observations + std::size_t{seen} * request.observation_words);
       top_.est_tready_i = goes(request.estimate_pause);
+      answers &= registers_.cycle(cycles);
       top_.eval();
       if (top_.obs_tvalid_i && top_.obs_tready_o) {
         ++seen;
@@ -75,12 +78,29 @@ class Driver {
       if (leaves) note_estimate(request);
       done = leaves && top_.est_tlast_o;
       tick();
-      top_.start_i = 0;
     }
+    top_.obs_tvalid_i = 0;
+    if (done) answers &= registers_.end(clocks, bus_goes);
+    if (!answers) request.answered_wrong(request.self);
     return done ? cycles - 1 : cycles;
   }
 
+  /// Writes how often each bit changed in the last run; nothing where they are not counted.
+  void write_changes(const char* file) {
+#if VM_COVERAGE
+    context_.coveragep()->forcePerInstance(true);
+    context_.coveragep()->write(file);
+#else
+    (void)file;
+#endif
+  }
+
  private:
+  void forget_changes() {
+#if VM_COVERAGE
+    context_.coveragep()->zero();
+#endif
+  }
   void tick() {
     top_.clk_i = 1;
     top_.eval();
@@ -102,6 +122,7 @@ class Driver {
 
   VerilatedContext context_;
   Vtop top_;
+  Registers<Vtop> registers_;
   std::vector<std::uint32_t> words_;
 };
 
@@ -112,4 +133,7 @@ extern "C" void driver_close(void* driver) { delete static_cast<Driver*>(driver)
 extern "C" void driver_reset(void* driver) { static_cast<Driver*>(driver)->reset(); }
 extern "C" std::uint64_t driver_run(void* driver, const mote::hardware::Request* request) {
   return static_cast<Driver*>(driver)->run(*request);
+}
+extern "C" void driver_write_changes(void* driver, const char* file) {
+  static_cast<Driver*>(driver)->write_changes(file);
 }

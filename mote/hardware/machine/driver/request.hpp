@@ -19,6 +19,8 @@ struct Request {
   void (*kept)(void* self, const std::uint32_t* words);
   /// Called with an estimate that leaves: the port's words.
   void (*estimated)(void* self, const std::uint32_t* words);
+  /// Called when the registers' bus gave a wrong word or answer.
+  void (*answered_wrong)(void* self);
 };
 
 }  // namespace mote::hardware

@@ -1,0 +1,18 @@
+#pragma once
+/// The golden model of a circuit as a library in C, for hosts and tests that know nothing of mote.
+
+#include <vector>
+
+#include "mote/hardware/machine/machine.hpp"
+
+namespace mote::hardware {
+
+/// A folder's files: <name>.h and <name>.c with what they include, replay.c, which plays a testbench's recording with
+/// the registers `played`, and run.sh, which builds it.
+///
+///   NAME_open() -> NAME_start(filter, registers) -> NAME_step(filter, observation, estimate), words as on the streams
+///
+/// shape   empty for a kind of filter that machine/golden has no C of, and for steps that overlap
+std::vector<DesignFile> c_library(const Machine& machine, const RunRegisters& played);
+
+}  // namespace mote::hardware
