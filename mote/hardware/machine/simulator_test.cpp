@@ -86,7 +86,7 @@ TEST_P(Machines, EqualTheirGoldenModels) {
 ///         map and a start in mid-run are answered by errors and change nothing
 /// twin    the golden model of another N
 TEST(Machine, IsReachedOverABus) {
-  const Machine machine(local_level_circuit(), architectures().front(), kMost, 7, 1, false, RegisterAccess::kAxiLite);
+  const Machine machine(local_level_circuit(), architectures().front(), kMost, 7, 1, {}, RegisterAccess::kAxiLite);
   Simulator circuit(machine);
   const auto golden = machine.golden();
   for (const unsigned pause : {0U, 120U}) {
