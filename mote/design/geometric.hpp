@@ -44,7 +44,7 @@ struct Optimum {
 /// cost    about a millisecond for three variables
 /// source  the central path (Boyd & Vandenberghe 2004, sec. 11.3) until near, NLopt's SLSQP (Kraft 1994) from there:
 /// alone
-///         it gets stuck in a tenth of our programs; Boyd, Kim, Vandenberghe & Hassibi 2007 on geometric programs
+///         it gets stuck in some of our programs; Boyd, Kim, Vandenberghe & Hassibi 2007 on geometric programs
 Optimum solve(const GeometricProgram& program);
 
 }  // namespace mote::design

@@ -103,6 +103,8 @@ TEST(Record, BearingsBitForBit) { expect_bit_for_bit(Bearings{}, Bearings{{.peri
 TEST(Record, BearingsWithEveryOptionBitForBit) {
   expect_bit_for_bit(Bearings{{.dof = 4, .correlation = 0.3, .distortion = 0.1}},
                      Bearings{{.dof = 5, .correlation = 0.3, .distortion = 0.1}});
+  expect_bit_for_bit(Bearings{{.damping = 0.9, .sigma_across = 0.0005, .cruise = 0.1}},
+                     Bearings{{.damping = 0.9, .sigma_across = 0.0005, .cruise = 0.11}});
 }
 TEST(Record, FramesOfDirectionsBitForBit) {
   for (const std::size_t frame : {std::size_t{1}, std::size_t{6}}) {

@@ -15,6 +15,7 @@ struct BearingsParameters {
   double x0 = 0.250, vx0 = 0.001, y0 = 0.240, vy0 = -0.005;
   double sd_x = 0.02, sd_vx = 0.002, sd_y = 0.02, sd_vy = 0.002;
   double dof = 0, correlation = 0, distortion = 0;
+  double sigma_across = 0, cruise = 0;
 };
 
 struct BearingsWide;
@@ -22,6 +23,8 @@ struct BearingsWide;
 /// Target with damped velocity, driven by white acceleration, seen by its bearing from a sensor:
 ///
 ///   x' = x + T vx + T^2/2 u,  vx' = damping vx + T u,  (y likewise),   u ~ N(0, sigma_u^2) in each axis
+///   v' = damping v + (1 - damping) cruise e + T (u_1 e + u_2 n),   with sigma_across or cruise:
+///        e = v / |v|, n its normal to the left, u_1 ~ N(0, sigma_u^2), u_2 ~ N(0, sigma_across^2); x' as above
 ///   b  = atan2(y - sensor_y, x - sensor_x) - sensor_heading
 ///   z  = b - distortion sin^3 b + r,   r ~ s times N(0, 1) or Student's t(dof)
 ///   s  = sigma_r sqrt((1 + correlation) / (1 - correlation))
@@ -29,7 +32,8 @@ struct BearingsWide;
 /// correlation is that of a sensor's errors in successive steps. The model takes errors for independent; n of them with
 /// autocorrelation c tell as much about a resting target as n (1 - c) / (1 + c) independent ones, so each is given the
 /// scale that makes it tell so little. distortion: a sensor that sees targets off its axis too near to the axis, by up
-/// to that angle; one-to-one below 0.86 rad.
+/// to that angle; one-to-one below 0.86 rad. A vehicle keeps its course better than its speed, and its speed is not
+/// drawn to 0: sigma_across below sigma_u and cruise say so. A target at rest has the course of the x axis.
 ///
 /// shape   state (x, vx, y, vy) in m, m/s; a row is one bearing in rad, relative to the sensor's heading
 /// source  MIXED (1)-(3): T = 1 s, damping 1, the sensor at the origin; docs/models.md
@@ -43,7 +47,7 @@ struct Bearings {
   using Proposals = std::tuple<Prior, BearingsWide, Guided>;
   static constexpr std::size_t kNoise = 2;
 
-  static constexpr std::array<Parameter<Parameters>, 15> kParameters{{
+  static constexpr std::array<Parameter<Parameters>, 17> kParameters{{
       {"period", &Parameters::period, Range::kPositive, "s", "time between steps"},
       {"sigma_u", &Parameters::sigma_u, Range::kNotNegative, "m/s^2",
        "standard deviation of the acceleration, per axis"},
@@ -63,6 +67,10 @@ struct Bearings {
        "correlation of a sensor's successive errors: each weighs as if its scale were sqrt((1+c)/(1-c)) larger"},
       {"distortion", &Parameters::distortion, Range::kAny, "rad",
        "by how much a target across the sensor's axis is seen too near to the axis"},
+      {"sigma_across", &Parameters::sigma_across, Range::kNotNegative, "m/s^2",
+       "standard deviation of the acceleration across the course, sigma_u being that along it; 0 = sigma_u"},
+      {"cruise", &Parameters::cruise, Range::kNotNegative, "m/s",
+       "speed that damping below 1 draws the target to, along its course"},
   }};
 
   Parameters p{};
@@ -93,20 +101,22 @@ struct Bearings {
 
   template <class S, class D>
   State<S> next(Step, const State<S>& before, D& draw) const {
-    const S ux = S(p.sigma_u) * draw.normal();
-    const S uy = S(p.sigma_u) * draw.normal();
-    return moved(before, ux, uy);
+    const S first = S(p.sigma_u) * draw.normal();
+    const S second = S(across()) * draw.normal();
+    return moved(before, first, second);
   }
 
-  /// The state after one step under the accelerations (ux, uy).
+  /// The state after one step under two accelerations: along x and y, or, of a vehicle, along and across its course.
   template <class S>
-  State<S> moved(const State<S>& before, const S& ux, const S& uy) const {
-    const S T = S(p.period);
-    const S half = S(0.5 * p.period * p.period);
-    const S d = S(p.damping);
-    return {before[0] + T * before[1] + half * ux, d * before[1] + T * ux, before[2] + T * before[3] + half * uy,
-            d * before[3] + T * uy};
+  State<S> moved(const State<S>& before, const S& first, const S& second) const {
+    if (!vehicle()) return pushed(before, first, second, S(p.damping) * before[1], S(p.damping) * before[3]);
+    const std::array<S, 2> e = course(before);
+    const std::array<S, 2> v = undisturbed(before, e);
+    return pushed(before, first * e[0] - second * e[1], first * e[1] + second * e[0], v[0], v[1]);
   }
+
+  /// Standard deviation of the second acceleration, in m/s^2.
+  double across() const { return p.sigma_across > 0 ? p.sigma_across : p.sigma_u; }
 
   template <class S>
   S log_likelihood(Step, const State<S>& x, const Row<S>& y) const {
@@ -127,12 +137,11 @@ struct Bearings {
     return wrap(y[0] + y[3] - azimuth + bend(azimuth - y[3]));
   }
 
-  /// The accelerations that lead from `before` to `x`, in sigma_u, read off the velocities.
+  /// The accelerations that lead from `before` to `x`, in standard deviations, read off the velocities.
   template <class S>
   std::array<S, kNoise> noise(Step, const State<S>& x, const State<S>& before) const {
-    const S d = S(p.damping);
-    const S per_velocity = S(1 / (p.period * p.sigma_u));
-    return {(x[1] - d * before[1]) * per_velocity, (x[3] - d * before[3]) * per_velocity};
+    const auto change = velocity_change(x, before);
+    return {change[0] * S(1 / (p.period * p.sigma_u)), change[1] * S(1 / (p.period * across()))};
   }
 
   template <class S, class Add>
@@ -142,19 +151,21 @@ struct Bearings {
     add(residual, student_weight(residual, p.dof));
   }
 
-  /// The density of the acceleration that leads from `before` to `x`, read off the velocities.
+  /// The density of the accelerations that lead from `before` to `x`, read off the velocities.
   template <class S>
   S log_transition(Step, const State<S>& x, const State<S>& before) const {
-    return log_noise(x, before, p.sigma_u);
+    return log_noise(x, before, 1);
   }
 
-  /// log N(u; 0, sigma^2 I) of the acceleration u that leads from `before` to `x`.
+  /// The same density with standard deviations `wider` times the model's.
   template <class S>
-  S log_noise(const State<S>& x, const State<S>& before, double sigma) const {
-    const S d = S(p.damping);
+  S log_noise(const State<S>& x, const State<S>& before, double wider) const {
     const S per_period = S(1 / p.period);
-    return normal_log_density((x[1] - d * before[1]) * per_period, sigma * sigma) +
-           normal_log_density((x[3] - d * before[3]) * per_period, sigma * sigma);
+    const auto change = velocity_change(x, before);
+    const double along = wider * p.sigma_u;
+    const double over = wider * across();
+    return normal_log_density(change[0] * per_period, along * along) +
+           normal_log_density(change[1] * per_period, over * over);
   }
 
   template <class S, class D>
@@ -166,6 +177,48 @@ struct Bearings {
   }
 
  private:
+  /// Whether the accelerations are along and across the course.
+  bool vehicle() const { return p.sigma_across > 0 || p.cruise > 0; }
+
+  /// The unit vector along the velocity; along x for a target at rest.
+  template <class S>
+  static std::array<S, 2> course(const State<S>& x) {
+    using namespace numbers;
+    constexpr double kRest = 1e-30;  // m^2/s^2, a normal number in float, too
+    const S square = x[1] * x[1] + x[3] * x[3];
+    const auto rests = less(square, S(kRest));
+    const S per_speed = S(1) / sqrt(select(rests, S(1), square));
+    return {select(rests, S(1), x[1] * per_speed), select(rests, S(0), x[3] * per_speed)};
+  }
+
+  /// A vehicle's velocity after one step without acceleration.
+  template <class S>
+  std::array<S, 2> undisturbed(const State<S>& before, const std::array<S, 2>& e) const {
+    const S d = S(p.damping);
+    const S gain = S((1 - p.damping) * p.cruise);
+    return {d * before[1] + gain * e[0], d * before[3] + gain * e[1]};
+  }
+
+  /// The state after one step that turns the velocity into (vx, vy) but for the accelerations (ux, uy).
+  template <class S>
+  State<S> pushed(const State<S>& before, const S& ux, const S& uy, const S& vx, const S& vy) const {
+    const S T = S(p.period);
+    const S half = S(0.5 * p.period * p.period);
+    return {before[0] + T * before[1] + half * ux, vx + T * ux, before[2] + T * before[3] + half * uy, vy + T * uy};
+  }
+
+  /// T times the accelerations that lead from `before` to `x`.
+  template <class S>
+  std::array<S, kNoise> velocity_change(const State<S>& x, const State<S>& before) const {
+    const S d = S(p.damping);
+    if (!vehicle()) return {x[1] - d * before[1], x[3] - d * before[3]};
+    const std::array<S, 2> e = course(before);
+    const std::array<S, 2> v = undisturbed(before, e);
+    const S dx = x[1] - v[0];
+    const S dy = x[3] - v[1];
+    return {dx * e[0] + dy * e[1], dy * e[0] - dx * e[1]};
+  }
+
   /// distortion sin^3 relative: how much too near to its axis the sensor sees a target.
   template <class S>
   S bend(const S& relative) const {
@@ -179,7 +232,7 @@ struct Bearings {
 /// A proposal in noise space: accelerations three times wider than the model's, for targets that manoeuvre more than it
 /// says.
 ///
-///   u ~ g = N(0, (3 sigma_u)^2 I),   weight p(z | x) p(u) / g(u)
+///   u ~ g = N(0, 9 V), V the model's,   weight p(z | x) p(u) / g(u)
 struct BearingsWide {
   static constexpr std::string_view kName = "wide";
   static constexpr std::string_view kMeaning =
@@ -188,13 +241,13 @@ struct BearingsWide {
 
   template <class S, class D>
   std::array<S, 4> propose(const Bearings& model, Step, const std::array<S, 4>& before, Rows<S>, D& draw) const {
-    const S ux = S(kWider * model.p.sigma_u) * draw.normal();
-    const S uy = S(kWider * model.p.sigma_u) * draw.normal();
-    return model.moved(before, ux, uy);
+    const S first = S(kWider * model.p.sigma_u) * draw.normal();
+    const S second = S(kWider * model.across()) * draw.normal();
+    return model.moved(before, first, second);
   }
   template <class S>
   S log_density(const Bearings& model, Step, const std::array<S, 4>& x, const std::array<S, 4>& before, Rows<S>) const {
-    return model.log_noise(x, before, kWider * model.p.sigma_u);
+    return model.log_noise(x, before, kWider);
   }
 };
 

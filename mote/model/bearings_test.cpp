@@ -17,6 +17,15 @@ Bearings robust() {
 }
 MOTE_MODEL_LAWS(BearingsRobust, robust())
 
+/// A vehicle: it keeps its course better than its speed, and a speed of its own.
+Bearings vehicle() {
+  Bearings model = robust();
+  model.p.sigma_across = 0.02;
+  model.p.cruise = 0.3;
+  return model;
+}
+MOTE_MODEL_LAWS(BearingsVehicle, vehicle())
+
 TEST(Bearings, MovesAsTheCatalogueSays) {
   Bearings model;
   model.p.period = 0.5;
@@ -26,6 +35,41 @@ TEST(Bearings, MovesAsTheCatalogueSays) {
   EXPECT_DOUBLE_EQ(x[1], 0.9 * 2 + 0.5 * 0.2);
   EXPECT_DOUBLE_EQ(x[2], 3 + 0.5 * 4 - 0.125 * 0.4);
   EXPECT_DOUBLE_EQ(x[3], 0.9 * 4 - 0.5 * 0.4);
+}
+
+// Northwest at 0.5 m/s: along is (-0.6, 0.8), across, to the left, (-0.8, -0.6).
+TEST(Bearings, MovesAVehicleAlongAndAcrossItsCourse) {
+  const Bearings model = vehicle();
+  const auto x = model.moved<double>({1, -0.3, 3, 0.4}, 0.2, -0.1);
+  const double ux = 0.2 * -0.6 - 0.1 * -0.8;
+  const double uy = 0.2 * 0.8 - 0.1 * -0.6;
+  EXPECT_NEAR(x[0], 1 - 0.5 * 0.3 + 0.125 * ux, 1e-15);
+  EXPECT_NEAR(x[1], 0.9 * -0.3 + 0.1 * 0.3 * -0.6 + 0.5 * ux, 1e-15);
+  EXPECT_NEAR(x[2], 3 + 0.5 * 0.4 + 0.125 * uy, 1e-15);
+  EXPECT_NEAR(x[3], 0.9 * 0.4 + 0.1 * 0.3 * 0.8 + 0.5 * uy, 1e-15);
+}
+
+// referee  the noise that was put in, also of a target at rest, whose course is the x axis
+TEST(Bearings, ReadsAVehiclesNoiseOffItsVelocities) {
+  const Bearings model = vehicle();
+  for (const std::array<double, 4>& before : {std::array{1.0, -0.3, 3.0, 0.4}, std::array{1.0, 0.0, 3.0, 0.0}}) {
+    const auto x = model.moved<double>(before, 1.3 * model.p.sigma_u, -0.7 * model.p.sigma_across);
+    const auto u = model.noise<double>(1, x, before);
+    EXPECT_NEAR(u[0], 1.3, 1e-12);
+    EXPECT_NEAR(u[1], -0.7, 1e-12);
+  }
+}
+
+// With both deviations equal and no speed of its own a vehicle is any target: the noise has no direction.
+TEST(Bearings, WeighsAVehicleLikeAnyTargetIfItIsOne) {
+  Bearings model = robust();
+  model.p.sigma_across = model.p.sigma_u;
+  const std::array<double, 4> before{1, -0.3, 3, 0.4};
+  const std::array<double, 4> x{0.9, -0.25, 3.1, 0.41};
+  EXPECT_NEAR(model.log_transition<double>(1, x, before), robust().log_transition<double>(1, x, before), 1e-12);
+  model.p.sigma_across *= 2;
+  EXPECT_GT(std::abs(model.log_transition<double>(1, x, before) - robust().log_transition<double>(1, x, before)), 0.1)
+      << "the twin must fail";
 }
 
 TEST(Bearings, SeesRelativeToPositionAndHeadingOfTheSensor) {

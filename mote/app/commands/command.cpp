@@ -96,8 +96,12 @@ void check_words(const Bound& bound, const std::string& where) {
   }
 }
 
+/// A command "design measure" is a part of the command "design", which is bound before it.
 void bind(CLI::App& program, Bound& bound) {
-  bound.app = program.add_subcommand(bound.command.name, bound.command.summary);
+  const std::string& whole = bound.command.name;
+  const std::size_t part = whole.find(' ');
+  CLI::App& home = part == std::string::npos ? program : *program.get_subcommand(whole.substr(0, part));
+  bound.app = home.add_subcommand(whole.substr(part + 1), bound.command.summary);
   bound.app->footer(bound.command.footer);
   bound.app->allow_extras();  // check_words() refuses them better
   for (const PositionalSpec& spec : bound.command.positionals) {
@@ -154,6 +158,17 @@ int refused_output(int error) {
                                                   std::strerror(error), "Check where it leads."})
                      .what(),
                  ExitCode::kCannotWrite);
+}
+
+/// Refuses words that stop before a command, or name none: of the program, or of a command that has parts.
+void refuse_without_command(const std::vector<std::string>& words, const std::string& where,
+                            const std::vector<std::string>& names, const std::vector<std::string>& flags) {
+  const std::string known = fmt::format("one of {}", fmt::join(names, ", "));
+  if (!words.empty() && !words.front().starts_with("-"))
+    throw Refusal(ExitCode::kWrongUse, {where, "COMMAND", known, "\"" + words.front() + "\"",
+                                        hint(words.front(), names, "See " + where + " --help.")});
+  refuse_leftovers(words, where, flags);
+  throw Refusal(ExitCode::kWrongUse, nothing_for(where, "COMMAND", known));
 }
 
 /// What a command printed may still be on its way; a reader or a disk may refuse it.
@@ -262,16 +277,20 @@ int run_program(int count, char** words, const std::vector<Command>& commands_kn
   std::vector<std::string> names;
   for (const Command& command : commands_known) {
     commands.push_back(std::make_unique<Bound>());
-    names.push_back(command.name);
+    if (command.name.find(' ') == std::string::npos) names.push_back(command.name);
     commands.back()->command = command;
     bind(program, *commands.back());
   }
   const auto asked = [&]() -> const Bound* {
-    for (const auto& bound : commands)
-      if (bound->app->parsed()) return bound.get();
-    return nullptr;
+    const auto last =
+        std::find_if(commands.rbegin(), commands.rend(), [](const auto& bound) { return bound->app->parsed(); });
+    return last == commands.rend() ? nullptr : last->get();  // a part comes after its command
   };
-  const std::string known = fmt::format("one of {}", fmt::join(names, ", "));
+  const auto parts_of = [&](const Bound& bound) {
+    std::vector<std::string> parts;
+    for (const CLI::App* part : bound.app->get_subcommands({})) parts.push_back(part->get_name());
+    return parts;
+  };
   try {
     try {
       program.parse(count, words);
@@ -279,11 +298,11 @@ int run_program(int count, char** words, const std::vector<Command>& commands_kn
       if (error.get_exit_code() == 0) return with_printed(program.exit(error));  // --help, --version
       throw refusal_for(error, asked(), asked() == nullptr ? "mote" : "mote " + asked()->command.name);
     }
-    if (const auto words_left = program.remaining(); !words_left.empty() && !words_left.front().starts_with("-"))
-      throw Refusal(ExitCode::kWrongUse, {"mote", "COMMAND", known, "\"" + words_left.front() + "\"",
-                                          hint(words_left.front(), names, "See mote --help.")});
-    if (asked() == nullptr) refuse_leftovers(program.remaining(), "mote", {"--help", "--version"});
-    if (asked() == nullptr) throw Refusal(ExitCode::kWrongUse, nothing_for("mote", "COMMAND", known));
+    if (asked() == nullptr)
+      refuse_without_command(program.remaining(), "mote", names, {"--help", "--version"});
+    else if (!asked()->command.run)
+      refuse_without_command(asked()->app->remaining(), "mote " + asked()->command.name, parts_of(*asked()),
+                             {"--help"});
   } catch (const Refusal& refusal) {
     return refused_once(refusal, speaks);
   }

@@ -63,7 +63,7 @@ class Arguments {
   std::map<std::string, std::string> fallbacks_;
 };
 
-/// A command of the program.
+/// A command of the program. One without `run` has parts: commands named "<its name> <part>", listed after it.
 struct Command {
   std::string name, summary;
   std::vector<PositionalSpec> positionals;
@@ -84,6 +84,9 @@ Command simulate_cluster_command();
 Command compare_command();
 Command graph_command();
 Command rtl_command();
+Command design_command();
+Command design_measure_command();
+Command design_optimise_command();
 Command bench_command();
 Command reproduce_command();
 

@@ -175,6 +175,28 @@ void draw_clusters(Chart& chart, const Figure& figure, const Outcome& outcome) {
   }
 }
 
+/// Time along a number of blocks: a law and the exact schedule for each run.
+void draw_designs(Chart& chart, const Figure& figure, const Outcome& outcome) {
+  chart.x_label = figure.quantity == kDesignFigures[0] ? "pairs R" : "weighers R_w";
+  chart.y_label = "time of a step";
+  for (const DesignCurve& curve : outcome.curves.at(figure.title)) {
+    chart.series.push_back(
+        {.name = curve.run + ", law", .mark = Series::Mark::kMarkedLine, .x = curve.blocks, .y = curve.law});
+    chart.series.push_back(
+        {.name = curve.run + ", exact", .mark = Series::Mark::kPoints, .x = curve.blocks, .y = curve.exact});
+  }
+}
+
+std::string curves_csv(const Outcome& outcome) {
+  std::string csv = "figure,run,blocks,law,exact\n";
+  for (const auto& [title, curves] : outcome.curves)
+    for (const DesignCurve& curve : curves)
+      for (std::size_t i = 0; i < curve.blocks.size(); ++i)
+        csv += fmt::format("{},{},{},{},{}\n", slug(title), slug(curve.run), curve.blocks[i], exact(curve.law[i]),
+                           exact(curve.exact[i]));
+  return csv;
+}
+
 std::string sweeps_csv(const Outcome& outcome) {
   std::string csv = "run,proposers,weighers,chains,seconds_per_step,law_seconds,speedup\n";
   for (const auto& [name, sweep] : outcome.sweeps)
@@ -215,6 +237,8 @@ Chart chart_of(const Item& item, const Figure& figure, const Outcome& outcome) {
     draw_errors(chart, item, figure, outcome);
   } else if (item.cluster) {
     draw_clusters(chart, figure, outcome);
+  } else if (item.design) {
+    draw_designs(chart, figure, outcome);
   } else if (figure.state.empty()) {
     draw_track(chart, figure, outcome);
   } else {
@@ -228,6 +252,7 @@ std::string figure_csv(const Outcome& outcome) {
   if (!outcome.tracks.empty()) return tracks_csv(outcome);
   if (!outcome.errors.empty()) return errors_csv(outcome);
   if (!outcome.sweeps.empty()) return sweeps_csv(outcome);
+  if (!outcome.curves.empty()) return curves_csv(outcome);
   std::string csv = "t";
   for (const Quantity& state : outcome.states) csv += ",truth_" + state.name;
   for (const auto& [name, record] : outcome.records)

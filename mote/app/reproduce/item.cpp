@@ -18,10 +18,10 @@ constexpr std::int64_t kMostSteps = 1'000'000;
 constexpr std::int64_t kMostRepeats = 10'000;
 
 /// Kinds in the order of the enumeration.
-constexpr std::array<std::string_view, 16> kKinds{
+constexpr std::array<std::string_view, 17> kKinds{
     "mean-difference", "mean-spread",      "rmse",    "normalised-error", "final-bias",    "reference-error",
     "recovered",       "evidence-spread",  "summary", "resample-error",   "resample-time", "resample-cost",
-    "track",           "particles-enough", "cluster", "circuit"};
+    "track",           "particles-enough", "cluster", "circuit",          "design"};
 constexpr std::array<std::string_view, 3> kUnits{"standard-error", "posterior-sd", "absolute"};
 constexpr std::array<std::string_view, 2> kMiddles{"mean", "median"};
 
@@ -81,7 +81,7 @@ Clip drawn_from(Fields fields) {
   return clip;
 }
 
-std::vector<std::string> cluster_from(Fields fields) {
+std::vector<std::string> options_from(Fields fields) {
   std::vector<std::string> options = fields.texts("options");
   fields.finish();
   return options;
@@ -109,12 +109,12 @@ std::vector<int> rising(Fields& fields, std::string_view key) {
 /// The run of a table, or a run for each number of its list: of particles on a clip, of an option's values else.
 std::vector<Run> runs_from(Fields fields, const Item& item) {
   Run run{fields.where(), fields.text("name"), fields.texts("options"), {}};
-  const bool filters = !item.clip && !item.cluster;
+  const bool filters = !item.clip && !item.cluster && !item.design;
   if (filters) run.settings = fields.texts("set");
   if (filters && !item.weights) run.circuit = fields.yes("circuit");
   const std::string swept = filters ? fields.text_or("sweep", "") : "";
   const std::vector<int> numbers =
-      item.cluster ? std::vector<int>{} : rising(fields, item.clip ? "particles" : "values");
+      item.cluster || item.design ? std::vector<int>{} : rising(fields, item.clip ? "particles" : "values");
   if (filters && swept.empty() != numbers.empty()) fields.refuse("sweep", "an option, and a list of its values");
   std::vector<Run> runs;
   for (const int number : numbers) {
@@ -154,6 +154,9 @@ Figure figure_from(Fields fields, const Item& item) {
     figure.frames = rising(fields, "frames");
   } else if (item.cluster) {
     figure.quantity = kClusterKeys[fields.choice("quantity", std::span(kClusterKeys).first(2))];
+  } else if (item.design) {
+    figure.quantity = kDesignFigures[fields.choice("quantity", kDesignFigures)];
+    figure.repeats = static_cast<int>(fields.integer("most", 2, 10'000, 10));
   } else {
     figure.state = fields.text_or("state", "");
     figure.error = fields.yes("error");
@@ -205,11 +208,13 @@ Kind kind_from(Fields& fields, const Item& item) {
   const std::size_t first = static_cast<std::size_t>(item.weights   ? Kind::kResampleError
                                                      : item.clip    ? Kind::kTrack
                                                      : item.cluster ? Kind::kCluster
+                                                     : item.design  ? Kind::kDesign
                                                                     : Kind{});
-  const std::size_t count = item.weights ? 3 : item.clip ? 2 : item.cluster ? 1 : 9;
+  const std::size_t count = item.weights ? 3 : item.clip ? 2 : item.cluster || item.design ? 1 : 9;
   const auto known = std::span(kKinds).subspan(first, count);
   if (!fields.has("kind")) fields.refuse("kind", fmt::format("one of {}", fmt::join(known, ", ")));
-  if (first == 0 && fields.text_or("kind", "") == kKinds.back()) return Kind::kCircuit;
+  if (first == 0 && fields.text_or("kind", "") == kKinds[static_cast<std::size_t>(Kind::kCircuit)])
+    return Kind::kCircuit;
   return static_cast<Kind>(fields.choice("kind", known) + first);
 }
 
@@ -240,7 +245,8 @@ Comparison comparison_from(Fields fields, const Item& item) {
       if (std::none_of(item.runs.begin(), item.runs.end(), [&](const Run& r) { return r.name == name && r.circuit; }))
         fields.refuse("runs", "names of runs with circuit = true");
   }
-  c.repeats = c.kind == Kind::kCluster || c.kind == Kind::kCircuit
+  if (c.kind == Kind::kDesign) c.key = fields.text("key");
+  c.repeats = c.kind == Kind::kCluster || c.kind == Kind::kCircuit || c.kind == Kind::kDesign
                   ? 1
                   : static_cast<int>(fields.integer("repeats", 2, kMostRepeats, 20));
   read_condition(fields, c);
@@ -273,13 +279,16 @@ Item read_item(const std::string& path, const std::string& paper) {
   item.printed = fields.text("printed");
   item.note = fields.text_or("note", "");
   int sources = 0;
-  for (const char* table : {"simulate", "data", "weights", "clip", "drawn", "cluster"}) sources += fields.has(table);
+  for (const char* table : {"simulate", "data", "weights", "clip", "drawn", "cluster", "design"})
+    sources += fields.has(table);
   if (sources != 1)
-    fields.refuse("simulate", "one of the tables [simulate], [data], [weights], [clip], [drawn] and [cluster]");
+    fields.refuse("simulate",
+                  "one of the tables [simulate], [data], [weights], [clip], [drawn], [cluster] and [design]");
   if (fields.has("weights")) item.weights = weights_from(fields.table("weights"));
   if (fields.has("clip")) item.clip = clip_from(fields.table("clip"));
   if (fields.has("drawn")) item.clip = drawn_from(fields.table("drawn"));
-  if (fields.has("cluster")) item.cluster = cluster_from(fields.table("cluster"));
+  if (fields.has("cluster")) item.cluster = options_from(fields.table("cluster"));
+  if (fields.has("design")) item.design = options_from(fields.table("design"));
   if (fields.has("data")) item.recording = data_from(fields.table("data"), path);
   if (fields.has("simulate")) item.recording = simulated_from(fields.table("simulate"));
   for (const Fields& table : fields.tables("run"))
@@ -339,6 +348,8 @@ std::string meaning_of(const Comparison& c) {
                          c.cast.proposers, c.cast.weighers);
     case Kind::kCircuit:
       return fmt::format("Figure of a circuit: {}{}", c.key, c.mhz > 0 ? fmt::format(" at {:g} MHz", c.mhz) : "");
+    case Kind::kDesign:
+      return fmt::format("Value of a design, in the JSON of mote design optimise: {}", c.key);
     case Kind::kParticlesEnough:
       return fmt::format(
           "Particles that are enough: the least number from which on the centre error, a mean over filter seeds and "

@@ -72,6 +72,7 @@ struct Comparison {
     kParticlesEnough,  ///< on a clip: the least number of particles whose centre error is near that of the most
     kCluster,          ///< on a simulated cluster: time of all steps, or speed-up, of a cast
     kCircuit,          ///< a figure of a circuit that is simulated with the item's recording, and synthesised
+    kDesign,           ///< a value of the convex programs, or of the exact schedule
   };
   /// What a mean difference is measured in.
   enum class Unit { kStandardError, kPosteriorSd, kAbsolute };
@@ -81,7 +82,7 @@ struct Comparison {
   Kind kind = Kind::kRmse;
   std::vector<std::string> runs;
   std::string state;                 ///< a state, or "position" for the RMSE of x and y together
-  std::string key;                   ///< of the summary
+  std::string key;                   ///< of the summary; of a design a path in its JSON
   double slack = 0;                  ///< of kParticlesEnough: share that the centre error may be above that of the most
   double ess = 0;                    ///< level of the weights
   Cast cast = {};                    ///< of kCluster: proposers and weighers of the setting that is asked for
@@ -106,8 +107,9 @@ struct Figure {
   std::vector<int> frames = {};  ///< of an item on a clip: these frames of a run; empty: centre error over particles
   std::string against =
       {};            ///< draw the error to the posterior mean against this: a key of kAgainst; `runs` may be series
-  int repeats = 20;  ///< of such a figure
-  std::string quantity = {};  ///< of an item on clusters: one of the first two kClusterKeys, over the ranks
+  int repeats = 20;  ///< of such a figure; of a design's the most blocks that are drawn
+  std::string quantity = {};  ///< of an item on clusters: one of the first two kClusterKeys, over the ranks; of one of
+                              ///< designs: one of kDesignFigures
 };
 
 /// One item.
@@ -117,6 +119,7 @@ struct Item {
   std::optional<WeightSource> weights;              ///< resamplers on given weights, instead of filters on a recording
   std::optional<Clip> clip;                         ///< or the tracker on a clip
   std::optional<std::vector<std::string>> cluster;  ///< or steps on simulated clusters: options of every run
+  std::optional<std::vector<std::string>> design;   ///< or designs: options of every run
   std::vector<Run> runs;
   std::vector<Figure> figures;
   std::vector<Comparison> comparisons;
@@ -134,6 +137,9 @@ inline constexpr std::array<std::string_view, 3> kAgainst{"bytes_per_step", "mes
 /// drawn; both over what the latency laws say; and the speed-up over the most that the stages' times allow.
 inline constexpr std::array<std::string_view, 5> kClusterKeys{"seconds", "speedup", "seconds_over_law",
                                                               "speedup_over_law", "speedup_over_most"};
+
+/// What the time of a design is drawn over: pairs of proposer and weigher, or weighers beside one proposer.
+inline constexpr std::array<std::string_view, 2> kDesignFigures{"pairs", "weighers"};
 
 /// The figures of a circuit: of a run of the recording, of its area, and the cycles of a step over the latency law's.
 inline constexpr std::array<std::string_view, 12> kCircuitKeys{

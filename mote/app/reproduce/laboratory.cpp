@@ -77,6 +77,10 @@ Laboratory::Laboratory(Item item) : item_(std::move(item)) {
     clusters_ = as_bad_data([&] { return std::make_unique<Clusters>(item_); });
     return;
   }
+  if (item_.design) {
+    designs_ = as_bad_data([&] { return std::make_unique<Designs>(item_); });
+    return;
+  }
   const Source& from = item_.recording;
   header_ = from.simulated() ? frame_header(from.columns) : read_table(from.observations).header;
   source_ = model_with(from.settings, from.where);
@@ -153,6 +157,7 @@ std::string Laboratory::missing() const {
 std::size_t Laboratory::work() const {
   if (cinema_) return cinema_->work();
   if (clusters_) return clusters_->work();
+  if (designs_) return designs_->work();
   std::size_t runs = item_.weights ? 0 : item_.runs.size();
   for (const Comparison& c : item_.comparisons)
     runs += (c.kind == Kind::kNormalisedError ? 1 : c.runs.size()) * static_cast<std::size_t>(c.repeats);
@@ -236,6 +241,7 @@ std::vector<double> Laboratory::sample(const Comparison& c, std::uint64_t repeat
   if (item_.weights) return {resample_figure(c, repeat, side)};
   if (cinema_) return cinema_->sample(c, repeat, side, ran_);
   if (clusters_) return {clusters_->figure(c, side, ran_)};
+  if (designs_) return {designs_->figure(c, side)};
   if (c.kind == Kind::kCircuit) {
     const double figure = benches_.at(c.runs[side]).circuit->figure(c, scene(0).recording);
     ran_();
@@ -285,7 +291,8 @@ std::vector<double> Laboratory::sample(const Comparison& c, std::uint64_t repeat
     case Kind::kParticlesEnough:
     case Kind::kCluster:
     case Kind::kCircuit:
-      break;  // of items on weights, clips and clusters
+    case Kind::kDesign:
+      break;  // of items on weights, clips and clusters, of designs
   }
   return {kNaN};
 }
@@ -434,7 +441,7 @@ std::string Laboratory::missing_tool(const Comparison& c) const {
 Outcome Laboratory::regenerate(const std::function<void()>& ran) {
   ran_ = ran;
   Outcome outcome;
-  if (!item_.weights && !cinema_ && !clusters_) run_filters(outcome);
+  if (!item_.weights && !cinema_ && !clusters_ && !designs_) run_filters(outcome);
   for (const Comparison& comparison : item_.comparisons)
     if (const std::string tool = missing_tool(comparison); !tool.empty()) {
       outcome.left_out.push_back(fmt::format("left out {}: {}", comparison.name, tool));
@@ -446,6 +453,8 @@ Outcome Laboratory::regenerate(const std::function<void()>& ran) {
   if (item_.weights) outcome.tradeoffs = tradeoffs();
   if (cinema_) show_clips(outcome);
   if (clusters_) outcome.sweeps = clusters_->sweeps(ran_);
+  if (designs_)
+    for (const Figure& figure : item_.figures) outcome.curves[figure.title] = designs_->curves(figure);
   return outcome;
 }
 

@@ -11,6 +11,7 @@
 #include "mote/app/reproduce/cinema.hpp"
 #include "mote/app/reproduce/circuits.hpp"
 #include "mote/app/reproduce/clusters.hpp"
+#include "mote/app/reproduce/designs.hpp"
 #include "mote/app/reproduce/item.hpp"
 #include "mote/app/reproduce/statistics.hpp"
 
@@ -55,6 +56,7 @@ struct Outcome {
   std::vector<report::Picture> pictures;                   ///< of an item on a clip
   std::map<std::string, std::vector<ErrorRow>> errors;     ///< by title of a figure that draws them against something
   std::vector<std::pair<std::string, simulated::Sweep>> sweeps;  ///< of an item on clusters, by run
+  std::map<std::string, std::vector<DesignCurve>> curves;        ///< of an item of designs, by title of a figure
   std::vector<Result> results;
 };
 
@@ -120,6 +122,7 @@ class Laboratory {
   std::map<std::uint64_t, std::vector<std::vector<double>>> posterior_means_;  // by recording, (T, D)
   std::unique_ptr<Cinema> cinema_;                                             // of an item on a clip
   std::unique_ptr<Clusters> clusters_;                                         // of an item on simulated clusters
+  std::unique_ptr<Designs> designs_;                                           // of an item of designs
   std::function<void()> ran_;
 };
 

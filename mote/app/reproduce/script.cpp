@@ -41,11 +41,23 @@ std::string sweeps_for(const Item& item) {
   return script;
 }
 
+std::string designs_for(const Item& item) {
+  std::string script;
+  for (const Run& run : item.runs) {
+    script += "mote design optimise";
+    for (const auto& options : {*item.design, run.options})
+      for (const std::string& option : options) script += " " + shell_word(option);
+    script += fmt::format(" --json {}-{}.json\n", slug(item.paper + "-" + item.name), slug(run.name));
+  }
+  return script;
+}
+
 }  // namespace
 
 std::string script_for(const Item& item) {
   if (item.weights) return "";
   if (item.cluster) return sweeps_for(item);
+  if (item.design) return designs_for(item);
   if (item.clip) return item.clip->drawn() ? "" : tracks_for(item);
   const Source& from = item.recording;
   const std::string base = slug(item.paper + "-" + item.name);

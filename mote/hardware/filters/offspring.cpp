@@ -6,9 +6,9 @@
 namespace mote::hardware {
 
 std::uint32_t reciprocal_of(std::uint32_t x) {
-  const auto entry = [](std::uint32_t i) { return (1U << 25) / (128 + i) - 5; };
-  const std::uint32_t i = (x >> 10) & 127;
-  return ((entry(i) << 10) - (entry(i) - entry(i + 1)) * (x & 1023)) >> 10;
+  const auto entry = [](std::uint32_t i) { return (1U << 26) / (256 + i) - 1; };
+  const std::uint32_t i = (x >> 9) & 255;
+  return ((entry(i) << 9) - (entry(i) - entry(i + 1)) * (x & 511)) >> 9;
 }
 
 namespace {

@@ -68,9 +68,7 @@ class BlockSums {
   /// Blocks of all ranks whose sums are told: 48 kB of a filter of one state.
   static constexpr std::size_t kMostTold = 1024;
   /// Whether a rank with so many of all particles is told every rank's sums.
-  static bool tells(std::size_t particles, std::size_t all) {
-    return particles < all && all <= kMostTold * kBlock;
-  }
+  static bool tells(std::size_t particles, std::size_t all) { return particles < all && all <= kMostTold * kBlock; }
 
   /// For this process's `particles`; `team`, when not null, has `all` in all.
   BlockSums(std::size_t particles, std::size_t dimensions, Team* team = nullptr, std::size_t all = 0);

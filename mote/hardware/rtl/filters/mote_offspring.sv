@@ -4,7 +4,7 @@
 //   particle i has the children J_(i-1) .. J_i - 1; the last one's J is N
 //
 // Weights are stored with the scale that they were made at and lowered to the last one's when they are read, as Width bits
-// of T. N / T is a factor (mote_reciprocal), never too large; so no J is above N, and the last particle gains below N 2^-13
+// of T. N / T is a factor (mote_reciprocal), never too large; so no J is above N, and the last particle gains below N 2^-14
 // children. Rows without children are left out; those after the last child are not read.
 //
 // formats  weights: unsigned; ends_o: the J of a row's particles; row_o: the row's number
@@ -67,15 +67,18 @@ module mote_offspring #(
   end
   logic signed [ScaleWidth-1:0] last_scale_q;
   row_t row_q;
+  logic [RowWidth:0] write_at, read_at;
+  assign write_at = {bank_q, written_q[RowWidth:1]};
+  assign read_at = {~bank_q, row_q};
   logic [Many*WordWidth-1:0] word;
   for (genvar h = 0; h < 2; h++) begin : gen_half
     for (genvar l = 0; l < Lanes; l++) begin : gen_lane
       mote_ram #(.Width(WordWidth), .Words(2 << RowWidth)) u_weights (
           .clk_i,
           .write_i(write_i && written_q[0] == 1'(h)),
-          .write_at_i({bank_q, written_q[RowWidth:1]}),
+          .write_at_i(write_at),
           .write_word_i({scale_i, weight_i[l*Width+:Width]}),
-          .read_at_i({~bank_q, row_q}),
+          .read_at_i(read_at),
           .read_word_o(word[(h*Lanes+l)*WordWidth+:WordWidth]));
     end
   end
