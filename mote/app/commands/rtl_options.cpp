@@ -132,9 +132,9 @@ CircuitDesign circuit_design_from(const Arguments& arguments) {
   if (design.access == hardware::RegisterAccess::kAxiLite && design.instances > 1)
     throw Refusal(ExitCode::kWrongUse,
                   {arguments.where(), "--registers", "ports with --instances", "\"axi-lite\"", "Leave it out."});
-  refuse_uneven(arguments, design);
   design.registers.exchange = exchange_from(arguments, design);
   refuse_unread(arguments, design);
+  refuse_uneven(arguments, design);
   return design;
 }
 

@@ -74,7 +74,8 @@ void Simulator::build() {
   for (const char* name : {"driver.cpp", "request.hpp", "ports.hpp", "axi_lite.hpp"})
     write_text(folder + name, std::string(machine_template(name)));
   write_text(folder + "registers.hpp", registers_header(*machine_));
-  std::string make = "OPT_FAST=-O1 OPT_SLOW=-O0 OPT_GLOBAL=-O1";
+  std::string make = counts_changes_ ? "OPT_FAST=-O0" : "OPT_FAST=-O1";
+  make += " OPT_SLOW=-O0 OPT_GLOBAL=-O1";
   if (on_path("ccache")) make += " OBJCACHE=ccache";
   std::vector<std::string> words{"--cc", "--exe", "--build", "-Wall", "-O3", "--assert", "--x-assign", "fast"};
   if (counts_changes_) words.insert(words.end(), {"--coverage-toggle", "--coverage-max-width", "4096"});

@@ -90,6 +90,7 @@ module mote_resample_stream #(
       .weight_i(weight),
       .scale_i(scale),
       .total_i(sum_q),
+      .more_i(1'b1),
       .valid_o(walk_valid),
       .ready_i(leaves),
       .parent_o);
