@@ -107,7 +107,7 @@ TEST_P(SchemesNightly, EqualTheirGoldenModels) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, SchemesNightly, ::testing::ValuesIn(clouds()),
-                         [](const ::testing::TestParamInfo<Cloud>& info) { return info.param.name; });
+                         [](const ::testing::TestParamInfo<Cloud>& one) { return one.param.name; });
 
 }  // namespace
 }  // namespace mote::hardware
