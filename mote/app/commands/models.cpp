@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -22,8 +24,10 @@ void print_entry(const CatalogueEntry& entry) {
   fmt::print("{}: {}\n\nstates\n", entry.name, entry.meaning);
   for (const Quantity& s : entry.example_states) fmt::print("  {:<18}{}\n", s.name, s.unit);
   fmt::print("\ndata columns\n  t,{}\n\nparameters (--set name=value)\n", fmt::join(entry.example_columns, ","));
+  std::size_t widest = 11;
+  for (const ParameterInfo& p : entry.parameters) widest = std::max(widest, p.name.size());
   for (const ParameterInfo& p : entry.parameters)
-    fmt::print("  {:<12}[{}{}{}]  {} ({})\n", p.name, p.fallback.empty() ? "none" : p.fallback,
+    fmt::print("  {:<{}} [{}{}{}]  {} ({})\n", p.name, widest, p.fallback.empty() ? "none" : p.fallback,
                p.unit.empty() ? "" : " ", p.unit, p.meaning, p.allowed);
   fmt::print("\nproposals (--proposal NAME)\n");
   for (const Named& g : entry.proposals) fmt::print("  {:<18}{}\n", g.name, g.meaning);
