@@ -35,6 +35,13 @@ double exact(Function function, double x) {
 
 std::string name_of(Function function) { return function == Function::kArctan ? "arctan" : "gaussian"; }
 
+std::vector<double> deviations_of_die(const std::vector<double>& sds, std::uint64_t seed, std::uint32_t die) {
+  auto block = Draws{.seed = seed, .step = die}.block(kMismatch);
+  std::vector<double> deviations(sds.size());
+  for (std::size_t d = 0; d < sds.size(); ++d) deviations[d] = sds[d] * block.particle(d).normal();
+  return deviations;
+}
+
 Curve::Curve(const std::vector<double>& values) {
   const std::vector<double> m = curvatures(values);
   cells_.clear();
@@ -67,12 +74,14 @@ std::string Behaviour::name() const {
 }
 
 Behaviour Behaviour::on_die(std::uint64_t seed, std::uint32_t die) const {
-  auto block = Draws{.seed = seed, .step = die}.block(kMismatch);
+  std::vector<double> sds;
+  for (const Sensitivity& device : devices_) sds.push_back(device.sd);
+  const std::vector<double> deviations = deviations_of_die(sds, seed, die);
   std::vector<double> values(kSteps + 1);
-  for (std::size_t k = 0; k <= kSteps; ++k) values[k] = transfer_(at(k, kSteps));
-  for (std::size_t d = 0; d < devices_.size(); ++d) {
-    const double deviation = devices_[d].sd * block.particle(d).normal();
-    for (std::size_t k = 0; k <= kSteps; ++k) values[k] += deviation * devices_[d].slope(at(k, kSteps));
+  for (std::size_t k = 0; k <= kSteps; ++k) {
+    const double x = at(k, kSteps);
+    values[k] = transfer_(x);
+    for (std::size_t d = 0; d < devices_.size(); ++d) values[k] += deviations[d] * devices_[d].slope(x);
   }
   return {facts_, Curve(values), power_, noise_, devices_};
 }

@@ -65,6 +65,9 @@ class Curve {
   double per_unit_ = 0, last_ = 0;
 };
 
+/// What ln I of each device deviates by on a die: normal numbers of these standard deviations, drawn at (seed, die).
+std::vector<double> deviations_of_die(const std::vector<double>& sds, std::uint64_t seed, std::uint32_t die);
+
 /// How a device's current differs between dies, and what it does to the output.
 struct Sensitivity {
   std::string device;
@@ -104,9 +107,11 @@ class Behaviour {
 
   /// The same circuit on die number `die`: devices differ as Pelgrom's law says, by draws addressed by (seed, die).
   ///
-  ///   y_die(x) = y(x) + sum_k e_k dy/d ln I_k,   e_k ~ N(0, sd_k^2)
+  ///   y_die(x) = y(x) + sum_k e_k dy/d ln I_k,   e = deviations_of_die()
   ///
-  /// The errors in facts() are the die's. cost   O(devices x points), some 50 us
+  /// Of its facts, the errors are the die's, the others the circuit's.
+  ///
+  /// cost    O(devices x points), some 50 us
   Behaviour on_die(std::uint64_t seed, std::uint32_t die) const;
 
  private:
