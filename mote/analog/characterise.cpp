@@ -37,6 +37,15 @@ std::vector<std::vector<double>> slopes(const Translinear& circuit, Setting sett
   return all;
 }
 
+std::vector<Sensitivity> sensitivities(const Translinear& circuit, const std::vector<std::vector<double>>& slope,
+                                       bool trimmed) {
+  const std::vector<std::string> names = devices(circuit);
+  const std::vector<double> sds = deviation_sds(circuit, trimmed);
+  std::vector<Sensitivity> all;
+  for (std::size_t d = 0; d < names.size(); ++d) all.push_back({names[d], sds[d], Curve(slope[d])});
+  return all;
+}
+
 std::vector<double> noise(const Translinear& circuit, const Sweep& sweep, double bandwidth_hz,
                           const std::vector<std::vector<double>>& slope) {
   const std::vector<std::string> names = devices(circuit);
@@ -83,7 +92,7 @@ double error_of_die(const Translinear& circuit, const Setting& setting) {
 
 }  // namespace
 
-Behaviour characterised(Function function, double ia_a, Level level, const Conditions& conditions) {
+Behaviour characterised(Function function, double ia_a, Level level, const Conditions& conditions, Detail detail) {
   const Translinear circuit = translinear(function);
   const Setting setting{level, ia_a, conditions};
   const Sweep fine = swept(circuit, setting, kFine);
@@ -93,14 +102,12 @@ Behaviour characterised(Function function, double ia_a, Level level, const Condi
   facts.power_w = *std::max_element(fine.power_w.begin(), fine.power_w.end());
   facts.settling_s = settling_time(circuit, setting, 1);
   facts.bandwidth_hz = std::log(512.0) / (4 * facts.settling_s);
+  const Curve power(fine.power_w);
+  if (detail == Detail::kTransfer) return {facts, transfer, power, {}, {}};
   const Sweep coarse = swept(circuit, setting, kCoarse, false, {watched(circuit, level)});
   const std::vector<std::vector<double>> slope = slopes(circuit, setting, coarse.y);
-  const std::vector<std::string> names = devices(circuit);
-  const std::vector<double> sds = deviation_sds(circuit, conditions.trimmed);
-  std::vector<Sensitivity> sensitivities;
-  for (std::size_t d = 0; d < names.size(); ++d) sensitivities.push_back({names[d], sds[d], Curve(slope[d])});
-  return {facts, transfer, Curve(fine.power_w), Curve(noise(circuit, coarse, facts.bandwidth_hz, slope)),
-          std::move(sensitivities)};
+  return {facts, transfer, power, Curve(noise(circuit, coarse, facts.bandwidth_hz, slope)),
+          sensitivities(circuit, slope, conditions.trimmed)};
 }
 
 double Dies::yield(double most) const {

@@ -5,16 +5,22 @@
 
 namespace mote::analog {
 
+/// How much of a circuit is looked at.
+enum class Detail {
+  kTransfer,  ///< no noise, and all dies alike
+  kDevices    ///< each device by itself off by 1 %: mismatch and noise, at ten times the cost
+};
+
 /// The behaviour of a circuit, fitted to simulations that are made now: 201 points of its steady states, 200 between
-/// them for the residual, a pulse from 0 to 1 and back for the settling time, and each device by itself off by 1 %, for
-/// mismatch and noise.
+/// them for the residual, a pulse of the input from 0 to I_a and back for the settling time.
 ///
 ///   noise   var y = sum over devices of (dy / d ln I_k)^2 2 q B / I_k,   B = 1 / (4 tau), tau = settling / ln 512
 ///
 /// error   Refusal (kOutsideTool) when ngspice is missing or finds no solution; Refusal (kWrongUse) for an I_a, a
 ///         temperature or a supply that no such circuit works at
-/// cost    about a second
-Behaviour characterised(Function function, double ia_a, Level level, const Conditions& conditions = {});
+/// cost    0.1 s; with its devices a second or two
+Behaviour characterised(Function function, double ia_a, Level level, const Conditions& conditions = {},
+                        Detail detail = Detail::kDevices);
 
 /// Errors of dies, each simulated with all its devices off at once: the least first.
 struct Dies {
