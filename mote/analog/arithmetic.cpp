@@ -67,7 +67,7 @@ void MixedArithmetic::choose_gains(const Placement& placement, const Design& des
   });
 }
 
-double MixedArithmetic::analog(Id id, const Vertex& vertex, const std::array<double, 4>& operands) {
+double MixedArithmetic::compute(Id id, const Vertex& vertex, const std::array<double, 4>& operands) {
   switch (parts_[id]) {
     case Part::kArctan: {
       const bool quotient = vertex.op == Op::kAtan;

@@ -8,7 +8,7 @@
 
 namespace mote::analog {
 
-/// Computes the operations of a placement: an arithmetic for graph::Replayed.
+/// Computes the operations of a placement.
 ///
 /// Method-1 divides y by x in double, the smaller by the larger, and hands circuits what a DAC makes of it; what
 /// crosses into a sum with an arctangent is an angle, wrapped into [-pi, pi). Method-2 and 3 divide by a circuit that
@@ -18,8 +18,6 @@ namespace mote::analog {
 /// cost    about 5 ns a circuit, as much for its noise
 class MixedArithmetic {
  public:
-  using Number = double;
-
   MixedArithmetic(const Placement& placement, const Design& design);
 
   /// Where noise comes from: a particle's draws; nullptr: there is none.
@@ -28,17 +26,17 @@ class MixedArithmetic {
   double number(graph::Id id, double value) const {
     return parts_[id] == Part::kSource ? gains_[id] * std::clamp(value, -clip_, clip_) : value;
   }
-  static double value(graph::Id, double number) { return number; }
-  double compute(graph::Id id, const graph::Vertex& vertex, const std::array<double, 4>& operands) {
-    if (parts_[id] == Part::kDigital) return graph::apply<double>(vertex.op, operands);
-    return analog(id, vertex, operands);
+  /// Whether an operation is that of the graph: digital, or currents that neither cross nor are scaled.
+  bool is_exact(graph::Id id) const {
+    return parts_[id] == Part::kDigital || (parts_[id] == Part::kCurrents && crossings_[id] == 0 && gains_[id] == 1);
   }
+  /// An operation that is not exact.
+  double compute(graph::Id id, const graph::Vertex& vertex, const std::array<double, 4>& operands);
 
   /// The angle that the circuit gives for a direction, without noise: its measured transfer.
   double transferred(double angle_rad) const;
 
  private:
-  double analog(graph::Id id, const graph::Vertex& vertex, const std::array<double, 4>& operands);
   double arctan(double y, double x, double gain, bool noisy) const;
   double circuit(const Behaviour& behaviour, double x, bool noisy) const;
   double crossing(graph::Id id, double value);

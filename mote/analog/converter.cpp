@@ -15,6 +15,7 @@ Converter::Converter(const ConverterSheet& sheet, Direction direction, double lo
   errors_.resize(std::size_t{1} << static_cast<unsigned>(sheet.bits));
   const auto last = static_cast<double>(errors_.size() - 1);
   lsb_ = (high - low) / last;
+  per_lsb_ = 1 / lsb_;
   const double ripple = std::min(sheet.dnl_lsb / 2, sheet.inl_lsb);  // two neighbours differ by twice that at most
   const double bow = sheet.inl_lsb - ripple;
   const Draws draws{seed, 0, number};

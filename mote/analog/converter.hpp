@@ -59,7 +59,7 @@ class Converter {
   /// `normal` is a standard normal number.
   double operator()(double x, double normal) const {
     if (errors_.empty() || std::isnan(x)) return x;
-    const double place = (x - low_) / lsb_ + noise_lsb_ * normal;
+    const double place = (x - low_) * per_lsb_ + noise_lsb_ * normal;
     const double code = nearest(place);
     const double error = errors_[static_cast<std::size_t>(code)];
     return low_ + lsb_ * (direction_ == Direction::kToAnalog ? code + error : nearest(place - error));
@@ -72,7 +72,7 @@ class Converter {
   }
 
   Direction direction_;
-  double low_, lsb_ = 0, noise_lsb_;
+  double low_, lsb_ = 0, per_lsb_ = 0, noise_lsb_;
   std::vector<double> errors_;  ///< by code, in LSB; empty: none is there
 };
 

@@ -52,7 +52,8 @@ struct Design {
   std::uint64_t seed = 0;  ///< of the errors of converters and other parts
 };
 
-/// The circuit with an error, against the exact function, so many times as large: what a better or worse one would be.
-Behaviour with_scaled_error(const Behaviour& circuit, double times);
+/// The circuit with its error, against the exact function, and its noise so many times as large: what a better or worse
+/// one would be.
+Behaviour scaled(const Behaviour& circuit, double error, double noise);
 
 }  // namespace mote::analog
