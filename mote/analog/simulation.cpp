@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kFarOff = 0.5;
 constexpr double kHalfStep = 1.0 / 512;  // of 8 bits
+constexpr double kSteps = 120;           // of the time that a pulse is high, at least
 constexpr int kLengthened = 8;           // times that a transient is made twice as long
 
 void refuse_outside(const char* what, double value, double least, double most, const char* unit, const char* next) {
@@ -91,11 +92,13 @@ void refuse_another_solution(const Translinear& circuit, const Sweep& sweep) {
                     fmt::format("{:.3f}", sweep.y[k]));
 }
 
-/// Seconds after `from` until the values stay within half a step of `end`.
+/// Seconds after `from` until the values stay within half a step of `end`; between two points the error falls evenly.
 double settled(const std::vector<double>& time, const std::vector<double>& y, double from, double until, double end) {
+  const auto excess = [&](std::size_t k) { return std::abs(y[k] - end) - kHalfStep; };
   double last = from;
-  for (std::size_t k = 0; k < time.size(); ++k)
-    if (time[k] > from && time[k] < until && std::abs(y[k] - end) > kHalfStep) last = time[k];
+  for (std::size_t k = 0; k + 1 < time.size(); ++k)
+    if (time[k] > from && time[k] < until && excess(k) > 0)
+      last = time[k] + (time[k + 1] - time[k]) * excess(k) / std::max(excess(k) - excess(k + 1), excess(k));
   return last - from;
 }
 
@@ -109,7 +112,7 @@ double value_before(const std::vector<double>& time, const std::vector<double>& 
 double settled_after_pulse(const Translinear& circuit, const Setting& setting, double step, double length_s) {
   Spice& spice = Spice::loaded();
   spice.take(netlist(circuit, setting, {step, length_s}));
-  spice.run(fmt::format("tran {:.6e} {:.6e} 0 {:.6e}", length_s / 400, 3 * length_s, length_s / 400));
+  spice.run(fmt::format("tran {:.6e} {:.6e} 0 {:.6e}", length_s / kSteps, 3 * length_s, length_s / kSteps));
   const std::vector<double> time = spice.values("time");
   std::vector<double> y = spice.values("vout#branch");
   for (double& value : y) value /= setting.ia_a;

@@ -87,6 +87,8 @@ Command rtl_command();
 Command design_command();
 Command design_measure_command();
 Command design_optimise_command();
+Command analog_command();
+Command analog_characterise_command();
 Command bench_command();
 Command reproduce_command();
 

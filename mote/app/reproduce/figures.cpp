@@ -197,6 +197,15 @@ std::string curves_csv(const Outcome& outcome) {
   return csv;
 }
 
+std::string drawn_csv(const Outcome& outcome) {
+  std::string csv = "figure,series,x,y\n";
+  for (const auto& [title, chart] : outcome.drawn)
+    for (const Series& series : chart.series)
+      for (std::size_t i = 0; i < series.x.size(); ++i)
+        csv += fmt::format("{},{},{},{}\n", slug(title), slug(series.name), exact(series.x[i]), exact(series.y[i]));
+  return csv;
+}
+
 std::string sweeps_csv(const Outcome& outcome) {
   std::string csv = "run,proposers,weighers,chains,seconds_per_step,law_seconds,speedup\n";
   for (const auto& [name, sweep] : outcome.sweeps)
@@ -239,6 +248,10 @@ Chart chart_of(const Item& item, const Figure& figure, const Outcome& outcome) {
     draw_clusters(chart, figure, outcome);
   } else if (item.design) {
     draw_designs(chart, figure, outcome);
+  } else if (item.analog) {
+    const std::string title = chart.title;
+    chart = outcome.drawn.at(figure.title);
+    chart.title = title;
   } else if (figure.state.empty()) {
     draw_track(chart, figure, outcome);
   } else {
@@ -253,6 +266,7 @@ std::string figure_csv(const Outcome& outcome) {
   if (!outcome.errors.empty()) return errors_csv(outcome);
   if (!outcome.sweeps.empty()) return sweeps_csv(outcome);
   if (!outcome.curves.empty()) return curves_csv(outcome);
+  if (!outcome.drawn.empty()) return drawn_csv(outcome);
   std::string csv = "t";
   for (const Quantity& state : outcome.states) csv += ",truth_" + state.name;
   for (const auto& [name, record] : outcome.records)

@@ -14,7 +14,8 @@ report::Chart chart_of(const Item& item, const Figure& figure, const Outcome& ou
 /// ("imh_theta_mean"); of an item on weights: run, ess, error, ns_per_draw;
 /// of an item on a clip: run, particles, repeat and the figures of the track; of one with errors against something:
 /// figure, run, number, median_mse with its 95 % interval, messages_per_step, bytes_per_step; of an item on clusters:
-/// run, ranks by stages, seconds and speed-up; of an item of designs: figure, run, blocks, time by law and exact.
+/// run, ranks by stages, seconds and speed-up; of an item of designs: figure, run, blocks, time by law and exact; of
+/// one on analog circuits: figure, series, x, y.
 std::string figure_csv(const Outcome& outcome);
 
 }  // namespace mote::reproduce

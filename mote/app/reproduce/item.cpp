@@ -18,10 +18,10 @@ constexpr std::int64_t kMostSteps = 1'000'000;
 constexpr std::int64_t kMostRepeats = 10'000;
 
 /// Kinds in the order of the enumeration.
-constexpr std::array<std::string_view, 17> kKinds{
+constexpr std::array<std::string_view, 18> kKinds{
     "mean-difference", "mean-spread",      "rmse",    "normalised-error", "final-bias",    "reference-error",
     "recovered",       "evidence-spread",  "summary", "resample-error",   "resample-time", "resample-cost",
-    "track",           "particles-enough", "cluster", "circuit",          "design"};
+    "track",           "particles-enough", "cluster", "circuit",          "design",        "analog"};
 constexpr std::array<std::string_view, 3> kUnits{"standard-error", "posterior-sd", "absolute"};
 constexpr std::array<std::string_view, 2> kMiddles{"mean", "median"};
 
@@ -87,6 +87,12 @@ std::vector<std::string> options_from(Fields fields) {
   return options;
 }
 
+AnalogSource analog_from(Fields fields) {
+  AnalogSource source{fields.where(), fields.text("command"), fields.texts("options")};
+  fields.finish();
+  return source;
+}
+
 /// The level of a figure or comparison: one of the item's.
 double level_from(Fields& fields, const WeightSource& weights) {
   const auto level = fields.number("ess");
@@ -109,12 +115,13 @@ std::vector<int> rising(Fields& fields, std::string_view key) {
 /// The run of a table, or a run for each number of its list: of particles on a clip, of an option's values else.
 std::vector<Run> runs_from(Fields fields, const Item& item) {
   Run run{fields.where(), fields.text("name"), fields.texts("options"), {}};
-  const bool filters = !item.clip && !item.cluster && !item.design;
+  const bool filters = !item.clip && !item.cluster && !item.design && !item.analog;
   if (filters) run.settings = fields.texts("set");
   if (filters && !item.weights) run.circuit = fields.yes("circuit");
   const std::string swept = filters ? fields.text_or("sweep", "") : "";
-  const std::vector<int> numbers =
-      item.cluster || item.design ? std::vector<int>{} : rising(fields, item.clip ? "particles" : "values");
+  const std::vector<int> numbers = item.cluster || item.design || item.analog
+                                       ? std::vector<int>{}
+                                       : rising(fields, item.clip ? "particles" : "values");
   if (filters && swept.empty() != numbers.empty()) fields.refuse("sweep", "an option, and a list of its values");
   std::vector<Run> runs;
   for (const int number : numbers) {
@@ -157,6 +164,8 @@ Figure figure_from(Fields fields, const Item& item) {
   } else if (item.design) {
     figure.quantity = kDesignFigures[fields.choice("quantity", kDesignFigures)];
     figure.repeats = static_cast<int>(fields.integer("most", 2, 10'000, 10));
+  } else if (item.analog) {
+    figure.quantity = fields.text("quantity");
   } else {
     figure.state = fields.text_or("state", "");
     figure.error = fields.yes("error");
@@ -209,8 +218,9 @@ Kind kind_from(Fields& fields, const Item& item) {
                                                      : item.clip    ? Kind::kTrack
                                                      : item.cluster ? Kind::kCluster
                                                      : item.design  ? Kind::kDesign
+                                                     : item.analog  ? Kind::kAnalog
                                                                     : Kind{});
-  const std::size_t count = item.weights ? 3 : item.clip ? 2 : item.cluster || item.design ? 1 : 9;
+  const std::size_t count = item.weights ? 3 : item.clip ? 2 : item.cluster || item.design || item.analog ? 1 : 9;
   const auto known = std::span(kKinds).subspan(first, count);
   if (!fields.has("kind")) fields.refuse("kind", fmt::format("one of {}", fmt::join(known, ", ")));
   if (first == 0 && fields.text_or("kind", "") == kKinds[static_cast<std::size_t>(Kind::kCircuit)])
@@ -245,8 +255,8 @@ Comparison comparison_from(Fields fields, const Item& item) {
       if (std::none_of(item.runs.begin(), item.runs.end(), [&](const Run& r) { return r.name == name && r.circuit; }))
         fields.refuse("runs", "names of runs with circuit = true");
   }
-  if (c.kind == Kind::kDesign) c.key = fields.text("key");
-  c.repeats = c.kind == Kind::kCluster || c.kind == Kind::kCircuit || c.kind == Kind::kDesign
+  if (c.kind == Kind::kDesign || c.kind == Kind::kAnalog) c.key = fields.text("key");
+  c.repeats = c.kind == Kind::kCluster || c.kind == Kind::kCircuit || c.kind == Kind::kDesign || c.kind == Kind::kAnalog
                   ? 1
                   : static_cast<int>(fields.integer("repeats", 2, kMostRepeats, 20));
   read_condition(fields, c);
@@ -279,16 +289,17 @@ Item read_item(const std::string& path, const std::string& paper) {
   item.printed = fields.text("printed");
   item.note = fields.text_or("note", "");
   int sources = 0;
-  for (const char* table : {"simulate", "data", "weights", "clip", "drawn", "cluster", "design"})
+  for (const char* table : {"simulate", "data", "weights", "clip", "drawn", "cluster", "design", "analog"})
     sources += fields.has(table);
   if (sources != 1)
     fields.refuse("simulate",
-                  "one of the tables [simulate], [data], [weights], [clip], [drawn], [cluster] and [design]");
+                  "one of the tables [simulate], [data], [weights], [clip], [drawn], [cluster], [design] and [analog]");
   if (fields.has("weights")) item.weights = weights_from(fields.table("weights"));
   if (fields.has("clip")) item.clip = clip_from(fields.table("clip"));
   if (fields.has("drawn")) item.clip = drawn_from(fields.table("drawn"));
   if (fields.has("cluster")) item.cluster = options_from(fields.table("cluster"));
   if (fields.has("design")) item.design = options_from(fields.table("design"));
+  if (fields.has("analog")) item.analog = analog_from(fields.table("analog"));
   if (fields.has("data")) item.recording = data_from(fields.table("data"), path);
   if (fields.has("simulate")) item.recording = simulated_from(fields.table("simulate"));
   for (const Fields& table : fields.tables("run"))
@@ -350,6 +361,8 @@ std::string meaning_of(const Comparison& c) {
       return fmt::format("Figure of a circuit: {}{}", c.key, c.mhz > 0 ? fmt::format(" at {:g} MHz", c.mhz) : "");
     case Kind::kDesign:
       return fmt::format("Value of a design, in the JSON of mote design optimise: {}", c.key);
+    case Kind::kAnalog:
+      return fmt::format("Value of analog circuits, in the JSON of the item's command: {}", c.key);
     case Kind::kParticlesEnough:
       return fmt::format(
           "Particles that are enough: the least number from which on the centre error, a mean over filter seeds and "

@@ -38,8 +38,15 @@ struct Clip {
   bool drawn() const { return video.empty(); }
 };
 
+/// What an item on analog circuits asks ([analog]): a command of `mote analog`, and options of every run.
+struct AnalogSource {
+  std::string where;
+  std::string command;
+  std::vector<std::string> options;
+};
+
 /// One filter run of an item: options as on the command line of `mote run`; of an item on a clip, of `mote track`; of a
-/// circuit, of `mote rtl`.
+/// circuit, of `mote rtl`; of one on analog circuits, of its command.
 struct Run {
   std::string where;
   std::string name;
@@ -73,6 +80,7 @@ struct Comparison {
     kCluster,          ///< on a simulated cluster: time of all steps, or speed-up, of a cast
     kCircuit,          ///< a figure of a circuit that is simulated with the item's recording, and synthesised
     kDesign,           ///< a value of the convex programs, or of the exact schedule
+    kAnalog,           ///< a value of a command on analog circuits
   };
   /// What a mean difference is measured in.
   enum class Unit { kStandardError, kPosteriorSd, kAbsolute };
@@ -82,7 +90,7 @@ struct Comparison {
   Kind kind = Kind::kRmse;
   std::vector<std::string> runs;
   std::string state;                 ///< a state, or "position" for the RMSE of x and y together
-  std::string key;                   ///< of the summary; of a design a path in its JSON
+  std::string key;                   ///< of the summary; of a design and of analog circuits a path in their JSON
   double slack = 0;                  ///< of kParticlesEnough: share that the centre error may be above that of the most
   double ess = 0;                    ///< level of the weights
   Cast cast = {};                    ///< of kCluster: proposers and weighers of the setting that is asked for
@@ -109,7 +117,8 @@ struct Figure {
       {};            ///< draw the error to the posterior mean against this: a key of kAgainst; `runs` may be series
   int repeats = 20;  ///< of such a figure; of a design's the most blocks that are drawn
   std::string quantity = {};  ///< of an item on clusters: one of the first two kClusterKeys, over the ranks; of one of
-                              ///< designs: one of kDesignFigures
+                              ///< designs: one of kDesignFigures; of one on analog circuits: the title of a
+                              ///< chart in the command's report
 };
 
 /// One item.
@@ -120,6 +129,7 @@ struct Item {
   std::optional<Clip> clip;                         ///< or the tracker on a clip
   std::optional<std::vector<std::string>> cluster;  ///< or steps on simulated clusters: options of every run
   std::optional<std::vector<std::string>> design;   ///< or designs: options of every run
+  std::optional<AnalogSource> analog;               ///< or analog circuits
   std::vector<Run> runs;
   std::vector<Figure> figures;
   std::vector<Comparison> comparisons;

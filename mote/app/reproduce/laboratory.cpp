@@ -81,6 +81,10 @@ Laboratory::Laboratory(Item item) : item_(std::move(item)) {
     designs_ = as_bad_data([&] { return std::make_unique<Designs>(item_); });
     return;
   }
+  if (item_.analog) {
+    analogs_ = as_bad_data([&] { return std::make_unique<Analogs>(item_); });
+    return;
+  }
   const Source& from = item_.recording;
   header_ = from.simulated() ? frame_header(from.columns) : read_table(from.observations).header;
   source_ = model_with(from.settings, from.where);
@@ -150,6 +154,7 @@ void Laboratory::check_comparisons() const {
 
 std::string Laboratory::missing() const {
   if (clusters_) return clusters_->missing();
+  if (analogs_) return analogs_->missing();
   const std::string clip = cinema_ ? cinema_->missing() : "";
   return clip.empty() ? "" : fmt::format("there is no {}. Set MOTE_DATA to the folder with clips/.", clip);
 }
@@ -158,6 +163,7 @@ std::size_t Laboratory::work() const {
   if (cinema_) return cinema_->work();
   if (clusters_) return clusters_->work();
   if (designs_) return designs_->work();
+  if (analogs_) return analogs_->work();
   std::size_t runs = item_.weights ? 0 : item_.runs.size();
   for (const Comparison& c : item_.comparisons)
     runs += (c.kind == Kind::kNormalisedError ? 1 : c.runs.size()) * static_cast<std::size_t>(c.repeats);
@@ -242,6 +248,7 @@ std::vector<double> Laboratory::sample(const Comparison& c, std::uint64_t repeat
   if (cinema_) return cinema_->sample(c, repeat, side, ran_);
   if (clusters_) return {clusters_->figure(c, side, ran_)};
   if (designs_) return {designs_->figure(c, side)};
+  if (analogs_) return {analogs_->figure(c, side, ran_)};
   if (c.kind == Kind::kCircuit) {
     const double figure = benches_.at(c.runs[side]).circuit->figure(c, scene(0).recording);
     ran_();
@@ -292,7 +299,8 @@ std::vector<double> Laboratory::sample(const Comparison& c, std::uint64_t repeat
     case Kind::kCluster:
     case Kind::kCircuit:
     case Kind::kDesign:
-      break;  // of items on weights, clips and clusters, of designs
+    case Kind::kAnalog:
+      break;  // of items on weights, clips and clusters, of designs, on analog circuits
   }
   return {kNaN};
 }
@@ -441,7 +449,7 @@ std::string Laboratory::missing_tool(const Comparison& c) const {
 Outcome Laboratory::regenerate(const std::function<void()>& ran) {
   ran_ = ran;
   Outcome outcome;
-  if (!item_.weights && !cinema_ && !clusters_ && !designs_) run_filters(outcome);
+  if (!item_.weights && !cinema_ && !clusters_ && !designs_ && !analogs_) run_filters(outcome);
   for (const Comparison& comparison : item_.comparisons)
     if (const std::string tool = missing_tool(comparison); !tool.empty()) {
       outcome.left_out.push_back(fmt::format("left out {}: {}", comparison.name, tool));
@@ -455,6 +463,8 @@ Outcome Laboratory::regenerate(const std::function<void()>& ran) {
   if (clusters_) outcome.sweeps = clusters_->sweeps(ran_);
   if (designs_)
     for (const Figure& figure : item_.figures) outcome.curves[figure.title] = designs_->curves(figure);
+  if (analogs_)
+    for (const Figure& figure : item_.figures) outcome.drawn[figure.title] = analogs_->chart(figure, ran_);
   return outcome;
 }
 

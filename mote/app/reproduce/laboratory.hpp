@@ -8,6 +8,7 @@
 
 #include "mote/app/catalogue/scene.hpp"
 #include "mote/app/commands/job.hpp"
+#include "mote/app/reproduce/analogs.hpp"
 #include "mote/app/reproduce/cinema.hpp"
 #include "mote/app/reproduce/circuits.hpp"
 #include "mote/app/reproduce/clusters.hpp"
@@ -57,6 +58,7 @@ struct Outcome {
   std::map<std::string, std::vector<ErrorRow>> errors;     ///< by title of a figure that draws them against something
   std::vector<std::pair<std::string, simulated::Sweep>> sweeps;  ///< of an item on clusters, by run
   std::map<std::string, std::vector<DesignCurve>> curves;        ///< of an item of designs, by title of a figure
+  std::map<std::string, report::Chart> drawn;                    ///< of an item on analog circuits, likewise
   std::vector<Result> results;
 };
 
@@ -71,7 +73,7 @@ class Laboratory {
   explicit Laboratory(Item item);
 
   const Item& item() const { return item_; }
-  /// Why the item cannot be regenerated, in a sentence: its clip, SimGrid or a tool for circuits is missing;
+  /// Why the item cannot be regenerated, in a sentence: its clip, SimGrid, ngspice or a tool for circuits is missing;
   /// empty if nothing is.
   std::string missing() const;
   /// Filter runs that regenerate() takes, those it has made before included.
@@ -123,6 +125,7 @@ class Laboratory {
   std::unique_ptr<Cinema> cinema_;                                             // of an item on a clip
   std::unique_ptr<Clusters> clusters_;                                         // of an item on simulated clusters
   std::unique_ptr<Designs> designs_;                                           // of an item of designs
+  std::unique_ptr<Analogs> analogs_;                                           // of an item on analog circuits
   std::function<void()> ran_;
 };
 

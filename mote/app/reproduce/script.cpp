@@ -52,12 +52,24 @@ std::string designs_for(const Item& item) {
   return script;
 }
 
+std::string analogs_for(const Item& item) {
+  std::string script;
+  for (const Run& run : item.runs) {
+    script += "mote analog " + item.analog->command;
+    for (const auto& options : {item.analog->options, run.options})
+      for (const std::string& option : options) script += " " + shell_word(option);
+    script += fmt::format(" --json {}-{}.json\n", slug(item.paper + "-" + item.name), slug(run.name));
+  }
+  return script;
+}
+
 }  // namespace
 
 std::string script_for(const Item& item) {
   if (item.weights) return "";
   if (item.cluster) return sweeps_for(item);
   if (item.design) return designs_for(item);
+  if (item.analog) return analogs_for(item);
   if (item.clip) return item.clip->drawn() ? "" : tracks_for(item);
   const Source& from = item.recording;
   const std::string base = slug(item.paper + "-" + item.name);
