@@ -35,8 +35,7 @@ Refusal cannot_write(const std::string& path) {
 Journal::Journal(std::string path, const Json& belongs) : path_(std::move(path)) {
   if (path_.empty()) return;
   std::error_code error;
-  const bool there = std::filesystem::exists(path_, error);
-  if (there) read(belongs);
+  const bool there = std::filesystem::exists(path_, error) && read(belongs);
   file_ = std::fopen(path_.c_str(), "ae");
   if (file_ == nullptr) throw cannot_write(path_);
   if (!there) append(belongs);
@@ -46,7 +45,7 @@ Journal::~Journal() {
   if (file_ != nullptr) std::fclose(file_);
 }
 
-void Journal::read(const Json& belongs) {
+bool Journal::read(const Json& belongs) {
   const std::string text = read_text(path_);
   const std::size_t whole = text.find_last_of('\n') + 1;  // npos + 1 = 0
   std::size_t number = 0;
@@ -66,9 +65,8 @@ void Journal::read(const Json& belongs) {
     if (number > 1) take(line);
     at = end + 1;
   }
-  if (whole == text.size() && number > 0) return;
-  std::filesystem::resize_file(path_, whole);
-  if (number == 0) std::filesystem::remove(path_);
+  if (whole < text.size()) std::filesystem::resize_file(path_, whole);
+  return number > 0;
 }
 
 void Journal::take(const Json& line) {

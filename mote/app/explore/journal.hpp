@@ -39,7 +39,8 @@ class Journal final : public Memory {
   void keep(std::size_t candidate, std::size_t run, const Errors& errors);
 
  private:
-  void read(const nlohmann::json& belongs);
+  /// Whether there is anything in the file, once what was cut short is gone.
+  bool read(const nlohmann::json& belongs);
   void take(const nlohmann::json& line);
   void append(const nlohmann::json& line);
 

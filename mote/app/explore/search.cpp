@@ -141,19 +141,38 @@ class Search {
     all.push_back(error);
     return all;
   }
-  /// By the factor over the limits with this error, then by the goal.
-  auto key(std::size_t c, double error) const {
-    const double goal = order_.goal == error_ ? standings_[c].rmse : standings_[c].takes[order_.goal];
-    return std::tuple(design::excess(point(c, error), order_.limits), goal, c);
+  double goal_of(std::size_t c) const {
+    return order_.goal == error_ ? standings_[c].rmse : standings_[c].takes[order_.goal];
+  }
+  /// The limit on the error; infinite: none.
+  double most_error() const {
+    double most = kInfinity;
+    for (const Limit& limit : order_.limits)
+      if (limit.figure == error_) most = std::min(most, limit.most);
+    return most;
+  }
+  /// How many frontiers of goal and error lie before each candidate's own.
+  std::vector<std::size_t> depths_of(const Candidates& all) const {
+    std::vector<std::size_t> depths(standings_.size(), 0);
+    Candidates left = all;
+    for (std::size_t depth = 0; !left.empty(); ++depth) {
+      std::vector<Point> points;
+      for (const std::size_t c : left) points.push_back({goal_of(c), standings_[c].rmse});
+      const Candidates front = at(left, design::frontier(points));
+      for (const std::size_t c : front) depths[c] = depth;
+      std::erase_if(left, [&](std::size_t c) { return std::find(front.begin(), front.end(), c) != front.end(); });
+    }
+    return depths;
   }
   Candidates ranked(Candidates all) const {
-    const auto sure = std::min_element(all.begin(), all.end(), [&](std::size_t a, std::size_t b) {
-      return key(a, standings_[a].interval.high) < key(b, standings_[b].interval.high);
-    });
-    std::iter_swap(all.begin(), sure);
-    std::sort(all.begin() + 1, all.end(), [&](std::size_t a, std::size_t b) {
-      return key(a, standings_[a].interval.low) < key(b, standings_[b].interval.low);
-    });
+    const std::vector<Limit> known = known_limits();
+    const double most = most_error();
+    const std::vector<std::size_t> depths = depths_of(all);
+    const auto key = [&](std::size_t c) {
+      const double apart = std::isinf(most) ? 0 : std::abs(std::log(standings_[c].rmse / most));
+      return std::tuple(design::excess(standings_[c].takes, known), depths[c], apart, goal_of(c), c);
+    };
+    std::sort(all.begin(), all.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
     return all;
   }
 

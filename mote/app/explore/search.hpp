@@ -43,9 +43,9 @@ using Told = std::function<void(const char* what, std::size_t done, std::size_t 
 /// Finds what every candidate takes; judges by successive halving those that are within four times the limits on that
 /// (or within four times what the nearest exceeds them by); picks among those that are left.
 ///
-/// Halving keeps candidates by the factor by which they exceed the limits, then by the goal; an error counts there by
-/// the lower end of its interval, so that one that may keep its limit stays, and the candidate that is best by the
-/// upper ends goes first.
+/// Halving keeps candidates by the factor by which they exceed the limits on what they take; then by frontiers of goal
+/// and error, the first one first, because who errs less is known better than how much all of them do (runs are common
+/// to all); of one frontier those nearest to the limit on the error.
 ///
 /// error   Refusal (kInterrupted) after a signal: what was found is in the journal
 Finding search(const Target& target, const Jury& jury, Journal& journal, const Order& order, const Told& told,
