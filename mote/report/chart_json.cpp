@@ -55,7 +55,11 @@ void require_length(std::string_view chart, std::string_view name, std::string_v
 
 json to_json(const Chart& chart, const Series& series) {
   require_length(chart.title, series.name, "y", series.x.size(), series.y.size());
-  return {{"name", series.name}, {"mark", name_of(series.mark)}, {"x", numbers(series.x)}, {"y", numbers(series.y)}};
+  json all{{"name", series.name}, {"mark", name_of(series.mark)}, {"x", numbers(series.x)}, {"y", numbers(series.y)}};
+  if (series.labels.empty()) return all;
+  require_length(chart.title, series.name, "labels", series.x.size(), series.labels.size());
+  all["labels"] = series.labels;
+  return all;
 }
 
 json to_json(const Chart& chart, const Band& band) {

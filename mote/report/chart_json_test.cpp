@@ -39,6 +39,16 @@ TEST(ChartJson, CarriesEveryPartOfAChart) {
   EXPECT_EQ(json["equal_axes"], false);
 }
 
+TEST(ChartJson, SaysWhatEachPointIs) {
+  const auto json = written({.title = "a",
+                             .series = {{"a", Series::Mark::kPoints, {1, 2}, {3, 4}, {"mote run ungm", "</b>"}},
+                                        {"b", Series::Mark::kPoints, {1}, {2}}}});
+  EXPECT_EQ(json["series"][0]["labels"], nlohmann::json({"mote run ungm", "</b>"}));
+  EXPECT_FALSE(json["series"][1].contains("labels"));
+  const std::vector<Chart> ragged{{.title = "a", .series = {{"a", Series::Mark::kPoints, {1, 2}, {1, 2}, {"b"}}}}};
+  EXPECT_THROW(chart_json(ragged), std::invalid_argument);
+}
+
 TEST(ChartJson, MakesGapsOfWhatIsNoNumber) {
   const auto json =
       written({.title = "a", .series = {{"a", Series::Mark::kLine, {1, 2, 3, 4}, {kNan, kInfinity, -kInfinity, 4}}}});

@@ -16,6 +16,7 @@ struct Series {
   std::string name;
   Mark mark = Mark::kLine;
   std::vector<double> x = {}, y = {};
+  std::vector<std::string> labels = {};  ///< what each point is, shown where it is pointed at; none, or one for each
 };
 
 /// The region low(x) <= y <= high(x), for example an estimate +- 2 sd; NaN is a gap.

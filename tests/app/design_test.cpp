@@ -73,7 +73,7 @@ TEST_F(Design, MinimisesEnergy) {
 
 TEST_F(Design, RefusesNonsense) {
   for (const auto& [line, sentence] : std::vector<std::pair<std::string, std::string>>{
-           {"mote design", "mote design: COMMAND: expected one of measure, optimise"},
+           {"mote design", "mote design: COMMAND: expected one of measure, optimise, explore"},
            {"mote design optimize", "Did you mean optimise?"},
            {"mote design optimise --tw 1 --td 1", "--tp: expected what a particle takes in that stage, got nothing"},
            {kGrowth + "--deadline -1", "--deadline: expected a number from"},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include "mote/app/circuits/instances.hpp"
 
@@ -47,14 +48,19 @@ hardware::ModelCircuit model_circuit(const std::string& name, const FilterCircui
 
 }  // namespace
 
-FilterCircuit filter_circuit(const std::shared_ptr<const CatalogueModel>& model, const std::string& name,
+ModelDatapath model_datapath(const std::shared_ptr<const CatalogueModel>& model, const std::string& name,
                              const CircuitDesign& design) {
   const WordStudy study(*model_of_instance(model, name, design), sample_design(design));
   hardware::DatapathOptions options;
   options.prefix = "mote_" + identifier(name);
   options.overlapped = design.variant.overlapped;
-  FilterCircuit circuit{
-      study.recorded(), hardware::datapath(study.recorded(), study.samples(), options), nullptr, {}, model->states()};
+  options.more_bits = design.more_bits;
+  return {study.recorded(), hardware::datapath(study.recorded(), study.samples(), options)};
+}
+
+FilterCircuit filter_circuit(const std::shared_ptr<const CatalogueModel>& model, const std::string& name,
+                             const CircuitDesign& design, ModelDatapath pipelines) {
+  FilterCircuit circuit{std::move(pipelines.recorded), std::move(pipelines.datapath), nullptr, {}, model->states()};
   const auto machine = [&](unsigned instance) {
     return std::make_shared<hardware::Machine>(model_circuit(identifier(name), circuit), *design.architecture,
                                                design.registers, seed_of_instance(design.seed, instance), design.lanes,
@@ -63,6 +69,11 @@ FilterCircuit filter_circuit(const std::shared_ptr<const CatalogueModel>& model,
   circuit.machine = machine(0);
   for (unsigned i = 1; i < design.instances; ++i) circuit.others.push_back(machine(i));
   return circuit;
+}
+
+FilterCircuit filter_circuit(const std::shared_ptr<const CatalogueModel>& model, const std::string& name,
+                             const CircuitDesign& design) {
+  return filter_circuit(model, name, design, model_datapath(model, name, design));
 }
 
 }  // namespace mote

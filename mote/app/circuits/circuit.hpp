@@ -22,6 +22,7 @@ struct CircuitDesign {
   std::string where = "mote rtl";  ///< who asks for it, for refusals
   std::string proposal = "prior";  ///< of an architecture whose weights are those of pairs
   hardware::RegisterAccess access = hardware::RegisterAccess::kPorts;
+  int more_bits = 0;  ///< after the point, of all words, than the sensitivities ask for
 };
 
 /// A circuit, and what the host knows of its model.
@@ -35,12 +36,30 @@ struct FilterCircuit {
   const hardware::Machine& instance(std::size_t i) const { return i == 0 ? *machine : *others[i - 1]; }
 };
 
-/// Makes a model's circuit; its words are chosen on recordings that the model draws.
+/// A model's pipelines, which filters of several kinds are put around.
+struct ModelDatapath {
+  graph::Recorded recorded;
+  hardware::Datapath datapath;
+};
+
+/// The pipelines of a design: they depend on its instances, proposal, more_bits and whether steps overlap. Words are
+/// chosen on recordings that the model draws.
 ///
 /// error   Refusal (kWrongUse): no circuit exists for an operation of the model, or it is not as many copies as
 /// instances
 ///         are asked for
 /// cost    a second or two
+ModelDatapath model_datapath(const std::shared_ptr<const CatalogueModel>& model, const std::string& name,
+                             const CircuitDesign& design);
+
+/// The design's filter around pipelines of it.
+FilterCircuit filter_circuit(const std::shared_ptr<const CatalogueModel>& model, const std::string& name,
+                             const CircuitDesign& design, ModelDatapath pipelines);
+
+/// Makes a model's circuit, both together.
+///
+/// error   as model_datapath()
+/// cost    likewise
 FilterCircuit filter_circuit(const std::shared_ptr<const CatalogueModel>& model, const std::string& name,
                              const CircuitDesign& design);
 

@@ -87,6 +87,7 @@ Command rtl_command();
 Command design_command();
 Command design_measure_command();
 Command design_optimise_command();
+Command design_explore_command();
 Command analog_command();
 Command analog_characterise_command();
 Command bench_command();

@@ -10,21 +10,27 @@
 
 namespace mote {
 
-std::vector<std::size_t> particle_list_from(const Arguments& arguments) {
-  std::vector<std::size_t> all;
-  std::istringstream stream(arguments.text("--particles"));
+std::vector<long long> integer_list_from(const Arguments& arguments, const std::string& option, long long least,
+                                         long long most, const std::string& example) {
+  std::vector<long long> all;
+  std::istringstream stream(arguments.text(option));
   for (std::string part; std::getline(stream, part, ',');) {
     const auto n = integer_in(std::string(trimmed(part)));
-    if (!n || *n < 1 || *n > static_cast<long long>(kMostParticles))
-      throw Refusal(
-          ExitCode::kWrongUse,
-          {arguments.where(), "--particles", fmt::format("integers from 1 to {}, separated by commas", kMostParticles),
-           "\"" + arguments.text("--particles") + "\"", "Pass --particles 100,1000,10000."});
-    all.push_back(static_cast<std::size_t>(*n));
+    if (!n || *n < least || *n > most)
+      throw Refusal(ExitCode::kWrongUse,
+                    {arguments.where(), option, fmt::format("integers from {} to {}, separated by commas", least, most),
+                     "\"" + arguments.text(option) + "\"", "Pass " + option + " " + example + "."});
+    all.push_back(*n);
   }
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
+}
+
+std::vector<std::size_t> particle_list_from(const Arguments& arguments) {
+  const auto all =
+      integer_list_from(arguments, "--particles", 1, static_cast<long long>(kMostParticles), "100,1000,10000");
+  return {all.begin(), all.end()};
 }
 
 }  // namespace mote

@@ -1,11 +1,17 @@
 #pragma once
-/// The option --particles of commands that take several numbers.
+/// Options that take several numbers; --particles is one of several commands.
 
 #include <vector>
 
 #include "mote/app/commands/command.hpp"
 
 namespace mote {
+
+/// An option's integers, "1,2,4", in growing order, each once; `example` is what a refusal proposes.
+///
+/// error   Refusal (kWrongUse) for what is no integer from least to most
+std::vector<long long> integer_list_from(const Arguments& arguments, const std::string& option, long long least,
+                                         long long most, const std::string& example);
 
 /// "100,1000" in growing order, each once.
 ///

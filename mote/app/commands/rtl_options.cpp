@@ -104,6 +104,7 @@ std::vector<OptionSpec> circuit_options() {
       {"--overlap", "", "", "imh: begin a step while the one before is still decided on", "Circuit"},
       {"--proposal", "NAME", "prior", "auxiliary: where new particles come from (see mote models NAME)", "Circuit"},
       {"--lanes", "L", "", "chains, pairs of imh-chain, lanes or groups: a power of two [4]", "Circuit"},
+      {"--more-bits", "B", "0", "bits after the point, of every word, more than chosen: from -8 to 8", "Circuit"},
       {"--exchange", "M", "", "groups: children that each group has from the one before it, to N/L [1]", "Circuit"},
       {"--resampler", "KIND", "", "sisr, sisr-plain, groups: " + listed(kResamplers) + " [systematic]", "Circuit"},
       {"--loops", "KIND", "", "sisr-plain: " + listed(kLoops) + " [separate]", "Circuit"},
@@ -125,6 +126,7 @@ CircuitDesign circuit_design_from(const Arguments& arguments) {
   design.instances = static_cast<unsigned>(arguments.integer("--instances", 1, 2));
   design.where = arguments.where();
   design.proposal = arguments.text("--proposal");
+  design.more_bits = static_cast<int>(arguments.integer("--more-bits", -8, 8));
   design.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 0, 9223372036854775807LL));
   design.lanes = lanes_from(arguments, design);
   design.variant = variant_from(arguments);

@@ -61,33 +61,6 @@ Job job_on(const Design& design, Recording recording) {
   throw Refusal(ExitCode::kInterrupted, fmt::format("{}: interrupted {}; no file was written.", design.where, done));
 }
 
-/// Errors of a finished run.
-void measure(const Design& design, const RunRecord& record, Measured& run) {
-  const Scene& scene = design.scenes[run.recording];
-  Average truth;
-  Average reference;
-  run.final_error = kNaN;
-  for (std::size_t k = 0; k < record.rows.size(); ++k) {
-    const EstimateRow& row = record.rows[k];
-    if (!design.reference.name.empty())
-      reference.add(squared_distance(design, row.states, design.reference.solutions[run.recording].means[k]));
-    const auto known = scene.truth.states.find(row.t);
-    if (known == scene.truth.states.end()) continue;
-    const double squared = squared_distance(design, row.states, known->second);
-    truth.add(squared);
-    if (!std::isnan(squared)) run.final_error = std::sqrt(squared);
-  }
-  const Summary summary = summarise(record, nullptr);
-  run.mse_truth = truth.value();
-  run.mse_reference = reference.value();
-  run.log_evidence = summary.log_evidence;
-  run.collapsed = summary.collapses > 0;
-  run.seconds = record.step_seconds;
-  run.ns_per_particle_step = summary.ns_per_particle_step;
-  run.messages_per_step = summary.traffic_per_step.messages;
-  run.bytes_per_step = summary.traffic_per_step.bytes;
-}
-
 void mark_collapsed(const Design& design, Measured& run) {
   run.collapsed = true;
   run.mse_truth = run.final_error = design.has_truth() ? kInfinity : kNaN;
@@ -127,6 +100,32 @@ Measured measured_run(const Design& design, const Job& job, std::size_t contende
 }
 
 }  // namespace
+
+void measure(const Design& design, const RunRecord& record, Measured& run) {
+  const Scene& scene = design.scenes[run.recording];
+  Average truth;
+  Average reference;
+  run.final_error = kNaN;
+  for (std::size_t k = 0; k < record.rows.size(); ++k) {
+    const EstimateRow& row = record.rows[k];
+    if (!design.reference.name.empty())
+      reference.add(squared_distance(design, row.states, design.reference.solutions[run.recording].means[k]));
+    const auto known = scene.truth.states.find(row.t);
+    if (known == scene.truth.states.end()) continue;
+    const double squared = squared_distance(design, row.states, known->second);
+    truth.add(squared);
+    if (!std::isnan(squared)) run.final_error = std::sqrt(squared);
+  }
+  const Summary summary = summarise(record, nullptr);
+  run.mse_truth = truth.value();
+  run.mse_reference = reference.value();
+  run.log_evidence = summary.log_evidence;
+  run.collapsed = summary.collapses > 0;
+  run.seconds = record.step_seconds;
+  run.ns_per_particle_step = summary.ns_per_particle_step;
+  run.messages_per_step = summary.traffic_per_step.messages;
+  run.bytes_per_step = summary.traffic_per_step.bytes;
+}
 
 Target target_of(const std::string& name, const std::vector<Quantity>& states, const std::string& where) {
   std::vector<std::string> known;

@@ -97,6 +97,9 @@ Reference exact_reference(const Design& design, const ProgressOf& progress, cons
 Reference run_reference(const Design& design, const Plan& plan, const std::string& name, const ProgressOf& progress,
                         const std::atomic<bool>& stop);
 
+/// Fills in a run's errors and times from its record; run.recording says on which recording it was.
+void measure(const Design& design, const RunRecord& record, Measured& run);
+
 /// Runs everything: recordings, repeats, particles, contenders, the last innermost and in turns first.
 ///
 /// shape   (contenders, numbers of particles, K R), run (k, r) at k R + r

@@ -4,6 +4,7 @@
 
 #include "mote/base/refusal.hpp"
 #include "mote/base/scratch_folder.hpp"
+#include "mote/hardware/bench.hpp"
 #include "mote/hardware/filters/weights.hpp"
 #include "mote/hardware/timing.hpp"
 #include "mote/hardware/tools.hpp"
@@ -13,38 +14,14 @@ namespace {
 
 constexpr double kWireShare = 0.5;  // of a path's time in 7-series designs that are placed well
 
+double clock_of_path(double ns) { return 1000 * (1 - kWireShare) / ns; }
+
 std::string short_number(double value) {
   const std::string text = std::to_string(value);
   return text.substr(0, text.find('.') + 3);
 }
 
 int as_int(unsigned number) { return static_cast<int>(number); }
-
-/// The filter alone, the model's pipelines cut off.
-Circuit filter_alone(const Machine& machine) {
-  const Formats& f = machine.formats();
-  const Architecture& architecture = machine.architecture();
-  const int at = as_int(machine.capacity().at);
-  const int state = machine.particle_bits();
-  const int lanes = as_int(machine.capacity().lanes);
-  const int pair = state + lanes * as_int(f.carried * f.value_bits);
-  Circuit circuit{std::string(architecture.module), machine.parameters(), {{"start_i"}, {"steps_i", 16}}, {}, 0, true,
-                  machine.filter_tables()};
-  for (const Register& one : architecture.registers)
-    circuit.inputs.push_back({std::string(one.name) + "_i", one.flag ? 1 : at + 1});
-  for (const Port& port :
-       {Port{"obs_valid_i"}, Port{"obs_i", machine.model().observed_bits()}, Port{"propose_state_i", pair},
-        Port{"weigh_log_i", lanes * as_int(f.log_bits)}, Port{"est_ready_i"}})
-    circuit.inputs.push_back(port);
-  circuit.outputs = {{"busy_o"},
-                     {"obs_ready_o"},
-                     {"propose_state_o", state},
-                     {"propose_words_o", lanes * as_int(32 * f.draw_words)},
-                     {"est_valid_o"},
-                     {"est_mean_o", as_int(f.dims * (f.value_bits + f.extra_bits + 1))},
-                     {"est_sum_o", as_int(f.weight_bits) + at}};
-  return circuit;
-}
 
 /// Writes a circuit to a folder; it seeks its tables in `tables`.
 template <class Design>
@@ -84,7 +61,7 @@ Cost xc7_cost(const Design& design, const std::string& folder, const Activity& a
   const SlowestPath path = slowest_path(read_text(netlist), top_of(design));
   Cost cost{"XC7A100T-1 after synthesis; slowest path " + short_number(path.ns) + " ns of cells (" + path.cells + ")",
             area.lut, area.ff, area.dsp, area.bram18};
-  cost.fmax_mhz = 1000 * (1 - kWireShare) / path.ns;
+  cost.fmax_mhz = clock_of_path(path.ns);
   cost.sta_ns = yosys_sta(design);
   cost.power_mw = power_mw(area, *cost.fmax_mhz, activity);
   return cost;
@@ -120,6 +97,53 @@ Cost ecp5_cost(const Machine& machine, const std::string& folder) {
 }
 
 }  // namespace
+
+Circuit filter_alone(const Machine& machine) {
+  const Formats& f = machine.formats();
+  const Architecture& architecture = machine.architecture();
+  const int at = as_int(machine.capacity().at);
+  const int state = machine.particle_bits();
+  const int lanes = as_int(machine.capacity().lanes);
+  const int pair = state + lanes * as_int(f.carried * f.value_bits);
+  Circuit circuit{std::string(architecture.module), machine.parameters(), {{"start_i"}, {"steps_i", 16}}, {}, 0, true,
+                  machine.filter_tables()};
+  for (const Register& one : architecture.registers)
+    circuit.inputs.push_back({std::string(one.name) + "_i", one.flag ? 1 : at + 1});
+  for (const Port& port :
+       {Port{"obs_valid_i"}, Port{"obs_i", machine.model().observed_bits()}, Port{"propose_state_i", pair},
+        Port{"weigh_log_i", lanes * as_int(f.log_bits)}, Port{"est_ready_i"}})
+    circuit.inputs.push_back(port);
+  circuit.outputs = {{"busy_o"},
+                     {"obs_ready_o"},
+                     {"propose_state_o", state},
+                     {"propose_words_o", lanes * as_int(32 * f.draw_words)},
+                     {"est_valid_o"},
+                     {"est_mean_o", as_int(f.dims * (f.value_bits + f.extra_bits + 1))},
+                     {"est_sum_o", as_int(f.weight_bits) + at}};
+  return circuit;
+}
+
+PartCost part_cost(const Circuit& circuit) {
+  const ScratchFolder scratch;
+  const std::string folder = scratch.path().string() + "/";
+  const std::string netlist = folder + "netlist.json";
+  write_bench(folder, "core", {circuit});
+  const Area area = xc7_area(cells_after(folder, xc7_script("core") + "; write_json " + netlist));
+  return {area, slowest_path(read_text(netlist), "core").ns};
+}
+
+Cost cost_of_parts(const Machine& machine, const PartCost& propose, const PartCost& weigh, const PartCost& filter) {
+  const auto lanes = as_int(machine.capacity().lanes);
+  const auto sum = [&](int Area::*count) {
+    return filter.area.*count + lanes * (propose.area.*count + weigh.area.*count);
+  };
+  const Area area{sum(&Area::lut), sum(&Area::ff), sum(&Area::dsp), sum(&Area::bram18)};
+  Cost cost{"XC7A100T-1 by the sum of parts after synthesis", area.lut, area.ff, area.dsp, area.bram18};
+  cost.iob = machine.pins();
+  cost.fmax_mhz = clock_of_path(std::max({propose.path_ns, weigh.path_ns, filter.path_ns}));
+  cost.power_mw = power_mw(area, *cost.fmax_mhz);
+  return cost;
+}
 
 Cost cost_of(const Machine& machine, Family family, const Activity& activity) {
   const ScratchFolder scratch;

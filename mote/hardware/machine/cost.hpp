@@ -36,6 +36,24 @@ Cost cost_of(const Machine& machine, Family family, const Activity& activity = {
 /// The same of an accelerator on xc7.
 Cost cost_of(const Accelerator& accelerator);
 
+/// The filter alone, the model's pipelines cut off: with them, one of each a lane, it is the machine.
+Circuit filter_alone(const Machine& machine);
+
+/// A part of a circuit, synthesised by itself on xc7.
+struct PartCost {
+  Area area;
+  double path_ns = 0;  ///< its slowest path, cells only
+};
+
+/// error   Refusal (kOutsideTool) when yosys is missing or fails
+/// cost    1 to 20 s
+PartCost part_cost(const Circuit& circuit);
+
+/// What a machine takes by its parts: the sum of their areas, pipelines once a lane, and the slowest of their paths; on
+/// xc7. Of the growth model's filters within a tenth of cost_of() (docs/design.md); what is shared, or cut short, where
+/// parts meet is not seen.
+Cost cost_of_parts(const Machine& machine, const PartCost& propose, const PartCost& weigh, const PartCost& filter);
+
 /// Power of a 7-series device that is busy all the time: an estimate, not a measurement.
 ///
 ///   P = P_0 + f (a_f / a_0 (LUT p_l + FF p_f) + a_p / a_0 DSP p_d + BRAM18 p_b),   P_0 = 82 mW,  a_0 = 1/8

@@ -61,8 +61,9 @@ function numberColours(series, bands, bars) {
 }
 
 /**
- * A chart ready to draw. `plane`: some line turns back in x (or the axes are equal), so nearness is in the plane;
- * otherwise every x array grows. x, y: full ranges; whole: all x are whole numbers; hidden: numbers lost to log axes.
+ * A chart ready to draw. `plane`: some line turns back in x (or the axes are equal, or points have labels), so nearness
+ * is in the plane; otherwise every x array grows. x, y: full ranges; whole: all x are whole numbers; hidden: numbers lost
+ * to log axes.
  */
 export function prepare(chart) {
   const line = (item) => item.mark !== "points";
@@ -70,6 +71,7 @@ export function prepare(chart) {
     name: item.name,
     mark: item.mark,
     truth: isTruth(item),
+    labels: item.labels ?? [],
     ...positions(item, ["x", "y"], chart),
   }));
   const bands = chart.bands.map((item) => ({
@@ -78,7 +80,10 @@ export function prepare(chart) {
     ...positions(item, ["x", "low", "high"], chart),
   }));
   const plane =
-    chart.equal_axes || series.some((item) => line(item) && !isSorted(item.x.filter((v) => !Number.isNaN(v))));
+    chart.equal_axes ||
+    series.some(
+      (item) => item.labels.length || (line(item) && !isSorted(item.x.filter((v) => !Number.isNaN(v)))),
+    );
   for (const item of [...bands, ...series])
     if (item.mark === "band" || !plane)
       Object.assign(

@@ -4,7 +4,7 @@ import test from "node:test";
 import { prepare } from "./prepare.js";
 import { formatted, padded, tickLabel, ticks } from "./scale.js";
 import { lowerBound, thinBand, thinLine, thinPoints, thinTrack, visible, visibleBars } from "./thin.js";
-import { hitsAt } from "./tip.js";
+import { hitNear, hitsAt } from "./tip.js";
 
 const n = 100000;
 const x = Float64Array.from({ length: n }, (_, i) => i);
@@ -118,6 +118,14 @@ test("a line that turns back makes a chart of the plane, unsorted points do not"
   const points = prepare(chart({ series: [item("points")] }));
   assert.equal(points.plane, false);
   assert.deepEqual([...points.series[0].y], [1, 3, 2]);
+});
+
+test("points with labels are found one by one, as they were given", () => {
+  const series = [{ name: "a", mark: "points", x: [3, 1, 2], y: [1, 2, 3], labels: ["c", "a", "b"] }];
+  const ready = prepare(chart({ series }));
+  assert.equal(ready.plane, true);
+  const hit = hitNear(ready.items, [101, 199], (x, y) => [100 * x, 100 * y]);
+  assert.equal(hit.item.labels[hit.i], "a");
 });
 
 test("a band takes the colour of its series, truth has its own", () => {

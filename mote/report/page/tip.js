@@ -57,6 +57,7 @@ export function tipElement(chart, hits, swatch) {
     const name = item.end ? (chart.rows[item.row[i]] ?? item.name) : item.name;
     row.append(swatch(item), element("span", name), element("b", value));
     box.append(row);
+    if (item.labels?.[i]) box.append(element("div", item.labels[i], "tip-label"));
   }
   return box;
 }

@@ -1,0 +1,44 @@
+#include "mote/app/explore/target.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "mote/app/terminal/shell.hpp"
+#include "mote/app/terminal/suggestion.hpp"
+#include "mote/base/refusal.hpp"
+
+namespace mote::explore {
+
+std::vector<Words> accepted(const std::vector<Words>& all, const std::function<void(const Words&)>& accepts) {
+  std::vector<Words> left;
+  std::optional<Refusal> first;
+  for (const Words& words : all) {
+    try {
+      accepts(words);
+      left.push_back(words);
+    } catch (const Refusal& refusal) {
+      if (refusal.code() != ExitCode::kWrongUse) throw;
+      if (!first) first = refusal;
+    }
+  }
+  if (left.empty() && first) throw *first;
+  return left;
+}
+
+std::vector<std::string> kinds_of(const Space& space, const std::vector<std::string>& all) {
+  for (const std::string& kind : space.kinds)
+    if (std::find(all.begin(), all.end(), kind) == all.end())
+      throw Refusal(ExitCode::kWrongUse, {space.where, "--kinds", fmt::format("some of {}", fmt::join(all, ", ")),
+                                          '"' + kind + '"', hint(kind, all, "Leave --kinds out for all of them.")});
+  return space.kinds.empty() ? all : space.kinds;
+}
+
+std::string settings_of(const Space& space) {
+  std::string text;
+  for (const std::string& setting : space.settings) text += " --set " + shell_word(setting);
+  return text;
+}
+
+}  // namespace mote::explore

@@ -1,0 +1,32 @@
+#pragma once
+/// Successive halving: many candidates are judged by a few runs each, the better ones by more.
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace mote::design {
+
+/// Candidates by their numbers, in any order.
+using Candidates = std::vector<std::size_t>;
+
+/// How many runs judge a candidate: at first, and of those that are left in the end.
+struct Rungs {
+  std::size_t first = 8, most = 128;
+};
+
+/// Makes runs [first, last) of each of the candidates. Run r has the same data and the same seed for all of them
+/// (common random numbers), so that their differences vary less than they do.
+using Judge = std::function<void(const Candidates&, std::size_t first, std::size_t last)>;
+
+/// Puts candidates into their order by what the runs made so far say, the best first.
+using Ranked = std::function<Candidates(Candidates)>;
+
+/// Rung by rung the candidates that are left are judged until they have twice as many runs, and the better half of them
+/// goes on, at least one. Says the runs of each.
+///
+/// cost    about `first` runs a candidate for each of the log2(most / first) + 1 rungs
+/// source  Karnin, Koren & Somekh 2013; Jamieson & Talwalkar 2016
+std::vector<std::size_t> halve(std::size_t candidates, const Rungs& rungs, const Judge& judge, const Ranked& ranked);
+
+}  // namespace mote::design
