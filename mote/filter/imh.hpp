@@ -8,6 +8,7 @@
 #include "mote/base/permutation.hpp"
 #include "mote/base/scan.hpp"
 #include "mote/filter/chain.hpp"
+#include "mote/filter/elastic.hpp"
 #include "mote/filter/stages.hpp"
 #include "mote/filter/still.hpp"
 #include "mote/filter/weigh.hpp"
@@ -73,7 +74,7 @@ struct PairWeight {
 /// cost    O(Q + P N_b) a step (times N for MixtureWeight with g not p); memory about (2 D + 4) 8 (Q + P N_b) bytes
 /// source  docs/filters.md (F11) to (F20), (F27); IMH-HW section 4, IMH-OPT section IV
 template <Model M, class R, class G, class Weight>
-class MetropolisFilter final : public Filter {
+class MetropolisFilter final : public Filter, public Elastic {
  public:
   MetropolisFilter(M model, std::size_t particles, std::uint64_t seed, ChainOptions options, OnCollapse on_collapse,
                    StageRunner& runner = stage_by_stage())
@@ -85,6 +86,7 @@ class MetropolisFilter final : public Filter {
         runner_(&runner),
         proposers_(runner.proposers() * runner.lines()),
         layout_{particles, options.draws == 0 ? particles : options.draws, options.chains, options.burn_in.value_or(0)},
+        aimed_(particles),
         set_(model_.states().size(), particles),
         proposals_(model_.states().size(), 0),
         picks_(particles) {
@@ -114,6 +116,7 @@ class MetropolisFilter final : public Filter {
   void select(Step t, StepReport& report) override {
     if (weighted_ == &set_) return;
     if (!chosen_) choose(t, report.collapsed);
+    set_.resize(layout_.kept);
     set_.gather(proposals_, picks_);
     report.acceptance =
         chosen_->offered == 0 ? kNaN : static_cast<double>(chosen_->accepted) / static_cast<double>(chosen_->offered);
@@ -122,6 +125,10 @@ class MetropolisFilter final : public Filter {
   }
 
   WeightedSet weighted() const override { return {weighted_, weights_, total_}; }
+
+  /// Chains then keep all that they draw.
+  void aim(std::size_t particles) override { aimed_ = particles; }
+  std::size_t weighed() const override { return weighted_->size(); }
 
   void keep(Archive& archive) override { archive(set_); }
 
@@ -146,6 +153,10 @@ class MetropolisFilter final : public Filter {
 
   void propose_all(Step t, Rows<R> y) {
     layout_.burn_in = options_.burn_in.value_or(0);
+    if (aimed_ != layout_.kept) {
+      layout_.kept = layout_.draws = aimed_;
+      picks_.resize(aimed_);
+    }
     prepare_parents(t, y);
     propose_stretch(t, y, {0, layout_.proposals()});
     if (options_.burn_in) return;
@@ -339,6 +350,7 @@ class MetropolisFilter final : public Filter {
   StageRunner* runner_;
   std::vector<Cursors> proposers_;  // one a proposer and line
   ChainLayout layout_;
+  std::size_t aimed_;             // N of the next proposals
   Particles<R> set_, proposals_;  // the unweighted set S_{t-1}; the proposals of this step
   std::vector<double> log_weights_, log_uniforms_, weights_;
   std::vector<Index> parents_;  // of the proposals, where their weights depend on them

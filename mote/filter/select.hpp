@@ -1,7 +1,9 @@
 #pragma once
 /// Select: the set that the next step starts from, for filters with importance weights.
 
+#include <algorithm>
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 #include "mote/base/log_weights.hpp"
@@ -86,6 +88,19 @@ void resample(Cloud<R>& cloud, std::size_t first, std::size_t n, double log_mass
   cloud.x.gather(ancestors, first);
 }
 
+/// Replaces all particles by n draws among them, of equal weight (in the mean); they are one group.
+template <class R>
+void resample_to(Cloud<R>& cloud, std::size_t n, const SelectionOptions& options, const Draws& draws) {
+  std::vector<double> carried(n);
+  const std::vector<Index> ancestors = draw_survivors(cloud.weights, carried, 0.0, options, draws);
+  cloud.x.resize(std::max(n, cloud.size()));
+  cloud.x.gather(ancestors);
+  cloud.x.resize(n);
+  cloud.log_weights = std::move(carried);
+  cloud.weights.resize(n);
+  cloud.members = std::make_shared<Membership>(Groups(n, 1));
+}
+
 /// What a selection did.
 struct Selected {
   bool any = false;  ///< anything was resampled
@@ -99,6 +114,10 @@ class Selector {
   virtual ~Selector() = default;
   /// Selects where the options ask for it.
   virtual Selected select(Cloud<R>& cloud, double ess, const Draws& draws) = 0;
+  /// Has later selections leave so many particles.
+  ///
+  /// error   std::logic_error where groups select, whose sizes stay
+  virtual void aim(std::size_t) { throw std::logic_error("groups of particles keep their sizes"); }
 };
 
 /// SISR: resamples the whole set when its effective sample size is low; docs/filters.md (F8).
@@ -109,12 +128,17 @@ class WholeSelector final : public Selector<R> {
 
   Selected select(Cloud<R>& cloud, double ess, const Draws& draws) override {
     if (ess > options_.ess_threshold * static_cast<double>(cloud.size())) return {};
-    resample(cloud, 0, cloud.size(), 0.0, options_, draws);
+    if (children_ == 0 || children_ == cloud.size())
+      resample(cloud, 0, cloud.size(), 0.0, options_, draws);
+    else
+      resample_to(cloud, children_, options_, draws);
     return {.any = true};
   }
+  void aim(std::size_t children) override { children_ = children; }
 
  private:
   SelectionOptions options_;
+  std::size_t children_ = 0;  // 0: as many as there are
 };
 
 }  // namespace mote

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "mote/filter/elastic.hpp"
 #include "mote/filter/groups.hpp"
 #include "mote/filter/settle.hpp"
 #include "mote/filter/stages.hpp"
@@ -23,7 +24,7 @@ namespace mote {
 /// cost    O(N) a step; memory about (2 D + 3) 8 N bytes
 /// source  docs/filters.md (F3) to (F6), (F27); IMH-HW (4)-(6); FPGA (5)-(7)
 template <Model M, class R = double, class G = Prior>
-class ImportanceFilter final : public Filter {
+class ImportanceFilter final : public Filter, public Elastic {
  public:
   ImportanceFilter(M model, std::shared_ptr<const Membership> members, std::uint64_t seed,
                    std::unique_ptr<Selector<R>> selector, OnCollapse on_collapse,
@@ -82,6 +83,10 @@ class ImportanceFilter final : public Filter {
     };
     return moments_by(mean_of, angle);
   }
+
+  /// For one group alone; a step that does not select keeps what it has.
+  void aim(std::size_t particles) override { selector_->aim(particles); }
+  std::size_t weighed() const override { return cloud_.size(); }
 
   void keep(Archive& archive) override {
     archive(cloud_.x);

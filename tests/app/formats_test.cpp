@@ -264,13 +264,14 @@ TEST(Help, NamesTheOptionsOfTheDoor) {
   const Scratch scratch;
   const std::string help = scratch.shell("mote run --help").out;
   for (const std::string option :
-       {"--data FILE",       "--truth FILE",         "--out FILE",         "--summary FILE",   "--report FILE",
-        "--filter NAME",     "-n,--particles N",     "--seed S",           "--set NAME=VALUE", "--resampler NAME",
-        "--ess-threshold X", "--burn-in NB",         "--draws Q",          "--chains P",       "--parents HOW",
-        "--chain-start HOW", "--on-collapse WHAT",   "--engine NAME",      "--threads K",      "--precision TYPE",
-        "--groups K",        "--exchange HOW",       "--exchange-count M", "--proposers R",    "--weighers R",
-        "--checkpoint FILE", "--checkpoint-every S", "--budget TIME",      "--estimate F",     "--dump-particles FILE",
-        "--improved",        "--topology NAME",      "--exchange-every M", "--exchange-when X"})
+       {"--data FILE",        "--truth FILE",         "--out FILE",         "--summary FILE",   "--report FILE",
+        "--filter NAME",      "-n,--particles N",     "--seed S",           "--set NAME=VALUE", "--resampler NAME",
+        "--ess-threshold X",  "--burn-in NB",         "--draws Q",          "--chains P",       "--parents HOW",
+        "--chain-start HOW",  "--on-collapse WHAT",   "--engine NAME",      "--threads K",      "--precision TYPE",
+        "--groups K",         "--exchange HOW",       "--exchange-count M", "--proposers R",    "--weighers R",
+        "--checkpoint FILE",  "--checkpoint-every S", "--budget TIME",      "--estimate F",     "--dump-particles FILE",
+        "--most-particles N", "--mc-error E",         "--bins W,W...",      "--improved",       "--topology NAME",
+        "--exchange-every M", "--exchange-when X"})
     EXPECT_NE(help.find("\n  " + option), std::string::npos) << option;
   EXPECT_EQ(scratch.shell("mote --help").code, 0);
   EXPECT_EQ(scratch.shell("mote --version").code, 0);

@@ -23,6 +23,7 @@ std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.nam
 
 const std::string kGood = "t,y\n1,1100\n2,1000\n";
 const std::string kRun = "mote run local-level --data d.csv --out e.csv --summary s.json -n 50 ";
+const std::string kBudget = "mote run local-level --data d.csv --out e.csv ";
 const std::string kTruthRun =
     "mote run local-level --data x.csv --truth d.csv --out e.csv; code=$?; rm x.csv; exit $code";
 const std::string kLinear = "mote run linear-gaussian --data d.csv --out e.csv --set file=other.toml";
@@ -216,7 +217,29 @@ const std::vector<Case> kUse{
     {"CheckpointOnStandardOutput", kGood, kRun + "--checkpoint -", 2, "got something that is no regular file"},
     {"CheckpointInNoFolder", kGood, kRun + "--checkpoint no/c", 6, "no/c: expected an output that can be written"},
     {"CheckpointOfACompare", kGood, "mote compare local-level --checkpoint c", 2, R"(got "--checkpoint")"},
-    {"NoBudgetYet", kGood, kRun + "--budget 1ms", 2, "--budget: this version"},
+    {"BudgetAndParticles", kGood, kRun + "--budget 1ms", 2, "--budget: expected no --particles beside it"},
+    {"BudgetWithoutUnit", kGood, kBudget + "--budget 1", 2,
+     "--budget: expected a time from 1ns to 1000s with its unit"},
+    {"BudgetOfNothing", kGood, kBudget + "--budget 0ms", 2, R"(--budget: expected a time .*got "0ms")"},
+    {"BudgetInWords", kGood, kBudget + "--budget soon", 2, R"(--budget: expected a time .*got "soon")"},
+    {"BudgetOfAFilterThatStays", kGood, kBudget + "--budget 1ms --filter sqmc", 2,
+     "--budget: expected --filter sisr, imh or auxiliary"},
+    {"BudgetOfAPipeline", kGood, kBudget + "--budget 1ms --engine pipeline", 2,
+     "--budget: expected --engine simd or reference, got --engine pipeline"},
+    {"BudgetAndDraws", kGood, kBudget + "--filter imh --most-particles 100 --draws 2000", 2,
+     "--most-particles: expected no --draws beside it"},
+    {"BudgetAndCheckpoint", kGood, kBudget + "--budget 1ms --checkpoint c", 2,
+     "--budget: expected no --checkpoint beside it"},
+    {"BudgetTwice", kGood, kBudget + "--budget 1ms --most-particles 100", 2,
+     "--most-particles: expected no --budget beside it"},
+    {"FewerParticlesThanChains", kGood, kBudget + "--filter imh --chains 100 --most-particles 70", 2,
+     "--most-particles: expected an integer from 100"},
+    {"ErrorWithoutBudget", kGood, kBudget + "--mc-error 0.1", 2, "--mc-error: expected --budget or --most-particles"},
+    {"ErrorOfMoreThanOne", kGood, kBudget + "--budget 1ms --mc-error 2", 2,
+     "--mc-error: expected a number from 0 to 1"},
+    {"BinsInWords", kGood, kBudget + "--budget 1ms --bins wide", 2, "--bins: expected widths of at least 0"},
+    {"BinsForOtherStates", kGood, kBudget + "--most-particles 100 --bins 1,2", 2,
+     "--bins: expected a width for each of the model's 1 states, got 2"},
     {"TooManyParticles", kGood, kRun + "-n 268435457", 2, "--particles: expected an integer from 1 to 268435456"},
     {"ParticlesInWords", kGood, kRun + "-n many", 2, "--particles: expected an integer"},
     {"ParticlesWithExponent", kGood, kRun + "-n 1e3", 2, "--particles: expected an integer"},

@@ -45,6 +45,23 @@ TEST_F(SimulatedCluster, TakesWhatTheLawsSay) {
   EXPECT_NEAR(seconds(three[0]), 20e-6 + 10e-6 + 10 * 40e-6, 20e-6) << "a third of them each";
 }
 
+// claim    a step is predicted within 10 %, messages included
+// referee  SimGrid
+// twin     the laws of stages whose messages take no time, on a network that does take time
+TEST_F(SimulatedCluster, IsPredicted) {
+  const auto worst = [](const nlohmann::json& all, const std::string& by) {
+    double most = 0;
+    for (const auto& run : all) most = std::max(most, std::abs(seconds(run) / run.at(by).get<double>() - 1));
+    return most;
+  };
+  const std::string visual = "--stage-parallel --platform red -n 840 --dimensions 6 --tp 8e-6 --tw 1.1e-3 --td 1e-6 ";
+  const auto weighers = runs(visual + "--filter imh --weighers 1,6 --steps 2");
+  EXPECT_LT(worst(weighers, "predicted_seconds"), 0.1);
+  EXPECT_GT(worst(weighers, "law_seconds"), 0.05);
+  EXPECT_LT(worst(runs(visual + "--filter sisr --weighers 1,6 --steps 2"), "predicted_seconds"), 0.1);
+  EXPECT_LT(worst(runs("--ranks 1,4,16 -n 20000 --tp 5e-9 --ess 0.4 --steps 40"), "predicted_seconds"), 0.1);
+}
+
 // claim    a step of a team of R takes its work and ten waits or fewer of log2 R messages one after the other
 // referee  latency 1.5 us; 9 waits for all and the children's way to their neighbours
 TEST_F(SimulatedCluster, WaitsForItsMessages) {

@@ -20,12 +20,6 @@ std::vector<std::string> scheme_names() {
   return names;
 }
 
-void refuse_what_is_not_there(const Arguments& arguments) {
-  if (arguments.given("--budget"))
-    throw Refusal(ExitCode::kWrongUse,
-                  arguments.where() + ": --budget: this version of mote does not have it yet. Leave it out.");
-}
-
 /// Workers of a stage; 0: not told.
 std::size_t workers_from(const Arguments& arguments, const std::string& option) {
   return arguments.given(option)
@@ -117,7 +111,6 @@ std::vector<OptionSpec> plan_options() {
       {"--proposers", "R", "",
        "pipeline: blocks of particles proposed at once, mpi: processes that propose, from 1 to 64 [1]", engine},
       {"--weighers", "R", "", "pipeline: blocks weighed at once, mpi: processes that weigh, from 1 to 64 [1]", engine},
-      {"--budget", "TIME", "", "not in this version", engine},
   };
 }
 
@@ -132,7 +125,6 @@ GroupOptions exchange_from(const Arguments& arguments) {
 }
 
 Plan plan_from(const Arguments& arguments) {
-  refuse_what_is_not_there(arguments);
   Plan plan;
   plan.filter = static_cast<FilterKind>(arguments.choice("--filter", kFilters));
   plan.particles = static_cast<std::size_t>(arguments.integer("--particles", 1, kMost));

@@ -11,6 +11,7 @@
 
 #include "mote/app/catalogue/catalogue.hpp"
 #include "mote/app/catalogue/text_entry.hpp"
+#include "mote/app/commands/budget.hpp"
 #include "mote/app/commands/checkpoint_options.hpp"
 #include "mote/app/commands/command.hpp"
 #include "mote/app/commands/job.hpp"
@@ -63,6 +64,8 @@ struct Prepared {
   OutputSet outputs;
   Output *estimates = nullptr, *summary = nullptr, *report = nullptr, *dump = nullptr;
   std::optional<CheckpointFile> checkpoint;
+  std::optional<Budget> budget;
+  ParticleCounts counts;  // that a run with a budget had
 };
 
 void open_outputs(Prepared& run, const Arguments& arguments) {
@@ -84,6 +87,7 @@ void prepare_dump(Prepared& run) {
 void prepare(Prepared& run, const Arguments& arguments, Team* team, bool writes) {
   run.start = Clock::now();
   run.plan = plan_from(arguments);
+  run.budget = budget_from(arguments, run.plan);
   run.plan.team = team;
   if (team != nullptr) check(run.plan, arguments.where());
   run.job = load_job(arguments.text("MODEL"),
@@ -106,6 +110,19 @@ void prepare(Prepared& run, const Arguments& arguments, Team* team, bool writes)
   for (const std::string& note : run.job.notes) fmt::print(stderr, "{}\n", printable(note));
 }
 
+/// Runs with as many particles as the time allows and the weights ask for.
+RunRecord run_within(Budget& budget, Prepared& run, const std::string& where) {
+  settle(budget, run.job, run.plan, where);
+  if (!budget.fits)
+    fmt::print(stderr, "{}: note: --budget: {} particles are the fewest, and take longer.\n", where,
+               budget.adaptive.least);
+  check_memory(run.plan, run.job, where);
+  const auto filter = adaptive_filter(budget, run.job, run.plan, where);
+  RunRecord record = run_filter(*filter, run.job, run.plan, run.request);
+  run.counts = filter->counts();
+  return record;
+}
+
 /// A run that was told to stop ends here.
 void check_whole(const Prepared& run, const RunRecord& record, const Arguments& arguments) {
   if (record.interrupted)
@@ -119,13 +136,20 @@ void check_whole(const Prepared& run, const RunRecord& record, const Arguments& 
 /// Writes what was asked for.
 void publish(Prepared& run, RunRecord& record) {
   record.wall_seconds = std::chrono::duration<double>(Clock::now() - run.start).count();
-  const Summary summary = summarise(record, run.job.truth ? &*run.job.truth : nullptr);
+  Summary summary = summarise(record, run.job.truth ? &*run.job.truth : nullptr);
+  if (run.budget) summary.ns_per_particle_step = 1e9 * record.step_seconds / run.counts.sum;
   if (run.estimates != nullptr) run.estimates->write(estimates_csv(record));
-  if (run.summary != nullptr) run.summary->write(summary_json(record, summary).dump(2) + "\n");
+  if (run.summary != nullptr) {
+    nlohmann::json json = summary_json(record, summary);
+    if (run.budget) json["budget"] = budget_json(*run.budget, run.counts);
+    run.summary->write(json.dump(2) + "\n");
+  }
   if (run.report != nullptr) run.report->write(report_for(run.job, record, summary));
   run.outputs.commit();
   if (run.checkpoint) run.checkpoint->remove();
-  if (!run.outputs.on_standard_output()) print_summary(record, summary);
+  if (run.outputs.on_standard_output()) return;
+  print_summary(record, summary);
+  if (run.budget) fmt::print("{}", budget_text(*run.budget, run.counts));
 }
 
 /// Does `work` on every rank; what stops one of them stops all: the first of these says it.
@@ -155,7 +179,8 @@ ExitCode run_alone(const Arguments& arguments) {
   {
     Progress progress("steps");
     run.request.progress = [&](std::size_t done, std::size_t all) { progress.update(done, all); };
-    record = run_job(run.job, run.plan, run.request, arguments.where());
+    record = run.budget ? run_within(*run.budget, run, arguments.where())
+                        : run_job(run.job, run.plan, run.request, arguments.where());
   }
   check_whole(run, record, arguments);
   publish(run, record);
@@ -203,6 +228,7 @@ Command run_command(std::function<ExitCode(const Arguments&)> team) {
       {"--dump-particles", "FILE", "", "weighted particles of every step as CSV [none]", "Output"},
   };
   for (OptionSpec& option : plan_options()) options.push_back(std::move(option));
+  for (OptionSpec& option : budget_options()) options.push_back(std::move(option));
   for (OptionSpec& option : checkpoint_options()) options.push_back(std::move(option));
   return {"run",
           "Filter a recording",

@@ -29,19 +29,23 @@ std::string exchange_of(const GroupOptions& groups) {
 double latency_of(const Platform& platform) { return platform.link_latency_s * (platform.ring ? 1 : 2); }
 
 std::vector<std::string> columns(const Workload& work) {
-  if (work.by_stages) return {"ranks", "R_p", "R_w", "ms a step", "law, ms", "speed-up", "at work, %", "bytes a step"};
-  std::vector<std::string> all{"ranks", "particles", "ms a step", "speed-up", "efficiency, %", "bytes a step"};
+  if (work.by_stages)
+    return {"ranks", "R_p", "R_w", "ms a step", "predicted, ms", "law, ms", "speed-up", "at work, %", "bytes a step"};
+  std::vector<std::string> all{"ranks",    "particles",     "ms a step",   "predicted, ms",
+                               "speed-up", "efficiency, %", "bytes a step"};
   if (work.filter == FilterKind::kDistributed) all.insert(all.begin() + 1, "groups");
   return all;
 }
 
 std::vector<std::string> cells(const Workload& work, const SweepRun& run) {
   const std::string ms = fmt::format("{:.6g}", run.seconds_per_step * 1e3);
+  const std::string predicted = run.predicted_seconds ? fmt::format("{:.6g}", *run.predicted_seconds * 1e3) : "-";
   const std::string speedup = fmt::format("{:.4g}", run.speedup);
   const std::string percent = fmt::format("{:.2f}", run.efficiency * 100);
   const std::string bytes = fmt::format("{:.0f}", run.bytes_per_step);
   if (!work.by_stages) {
-    std::vector<std::string> all{std::to_string(run.ranks), std::to_string(run.particles), ms, speedup, percent, bytes};
+    std::vector<std::string> all{
+        std::to_string(run.ranks), std::to_string(run.particles), ms, predicted, speedup, percent, bytes};
     if (work.filter == FilterKind::kDistributed) all.insert(all.begin() + 1, std::to_string(work.groups_of(run.ranks)));
     return all;
   }
@@ -49,6 +53,7 @@ std::vector<std::string> cells(const Workload& work, const SweepRun& run) {
           std::to_string(run.cast.proposers),
           std::to_string(run.cast.weighers),
           ms,
+          predicted,
           fmt::format("{:.6g}", run.law_seconds * 1e3),
           speedup,
           percent,
@@ -84,13 +89,15 @@ std::string summary_of(const Sweep& sweep) {
 nlohmann::json runs_json(const Workload& work, const std::vector<SweepRun>& runs) {
   nlohmann::json list = nlohmann::json::array();
   for (const SweepRun& run : runs) {
-    nlohmann::json entry{{"ranks", run.ranks},
-                         {"particles", run.particles},
-                         {"seconds_per_step", run.seconds_per_step},
-                         {"messages_per_step", run.messages_per_step},
-                         {"bytes_per_step", run.bytes_per_step},
-                         {"speedup", run.speedup},
-                         {"efficiency", run.efficiency}};
+    nlohmann::json entry{
+        {"ranks", run.ranks},
+        {"particles", run.particles},
+        {"seconds_per_step", run.seconds_per_step},
+        {"messages_per_step", run.messages_per_step},
+        {"bytes_per_step", run.bytes_per_step},
+        {"predicted_seconds", run.predicted_seconds ? nlohmann::json(*run.predicted_seconds) : nlohmann::json(nullptr)},
+        {"speedup", run.speedup},
+        {"efficiency", run.efficiency}};
     if (work.filter == FilterKind::kDistributed) entry["groups"] = work.groups_of(run.ranks);
     if (work.by_stages) {
       entry["proposers"] = run.cast.proposers;

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mote/app/commands/hand_over.hpp"
+#include "mote/app/simulated/prediction.hpp"
 #include "mote/base/refusal.hpp"
 #include "mote/base/scratch_folder.hpp"
 #include "mote/software/pipeline/rank_stages.hpp"
@@ -151,6 +152,7 @@ std::vector<SweepRun> data_parallel_sweep(const Platform& platform, const Worklo
   std::vector<SweepRun> runs;
   for (const std::size_t r : ranks) {
     SweepRun run{.ranks = r, .particles = work.particles_of(r)};
+    run.predicted_seconds = predicted_on_shares(platform, work, r);
     simulate(stage, data_parallel_scenario(work, r), run, where);
     const double alone = (runs.empty() ? run : runs.front()).seconds_per_step;
     const auto count = static_cast<double>(r);
@@ -192,6 +194,7 @@ std::vector<SweepRun> stage_parallel_sweep(const Platform& platform, const Workl
       SweepRun run{.particles = work.particles, .cast = {rp, rw, work.chains}};
       run.ranks = run.cast.ranks();
       run.law_seconds = law_of(work, run.cast);
+      run.predicted_seconds = predicted_by_stages(platform, work, run.cast);
       simulate(stage, stage_parallel_scenario(work, run.cast), run, where);
       run.speedup = (runs.empty() ? run : runs.front()).seconds_per_step / run.seconds_per_step;
       run.efficiency = static_cast<double>(work.particles) * seconds_per_particle(work) /

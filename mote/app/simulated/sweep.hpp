@@ -2,6 +2,7 @@
 /// Sweeps: the program's MPI code on simulated clusters of several sizes.
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,7 @@ struct SweepRun {
   double seconds_per_step = 0;
   double messages_per_step = 0, bytes_per_step = 0;  ///< of all ranks, as CountingTeam counts
   double law_seconds = 0;  ///< by stages: what the latency laws say of the same blocks, where messages take no time
+  std::optional<double> predicted_seconds = {};  ///< of a step, messages included; nothing where there is no law
   double speedup = 1, efficiency = 1;
 };
 

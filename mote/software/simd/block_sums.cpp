@@ -161,22 +161,22 @@ void BlockSums::take_part(const ChildMap& all, ChildMap& map) const {
   for (const std::size_t begin : begins_) map.born.push_back(all.first[begin]);
 }
 
-void BlockSums::map_children(const Totals& totals, double u, ChildMap& map) const {
+void BlockSums::map_children(const Totals& totals, double u, std::size_t children, ChildMap& map) const {
   if (!everyones_.empty()) {
-    everyones_.front().map_children(totals, u, map_of_all_);
+    everyones_.front().map_children(totals, u, children, map_of_all_);
     return take_part(map_of_all_, map);
   }
   const std::size_t blocks = weights_.size();
   map.position.resize(blocks + 1);
   map.children_per_weight.resize(blocks);
   map.first.resize(blocks + 1);
-  const auto n = static_cast<double>(all_);
+  const auto n = static_cast<double>(children);
   const double per_weight = n / totals.weight;
   if (alone_in_one_block()) {
     map.position = {-u, n - u};
     map.children_per_weight[0] = per_weight;
     map.first[0] = 0;
-    map.first[1] = static_cast<std::uint32_t>(all_);
+    map.first[1] = static_cast<std::uint32_t>(children);
     map.born = map.first;
     return;
   }
@@ -193,7 +193,7 @@ void BlockSums::map_children(const Totals& totals, double u, ChildMap& map) cons
   }
   if (team_ == nullptr) return;
   map.born = team_->gather(map.first.front());
-  map.born.push_back(static_cast<std::uint32_t>(all_));
+  map.born.push_back(static_cast<std::uint32_t>(children));
 }
 
 }  // namespace mote

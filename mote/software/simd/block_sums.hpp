@@ -15,7 +15,7 @@ namespace mote {
 /// Where the children of each block of particles begin. Child j belongs to the particle whose cumulative share of N
 /// contains j + u.
 ///
-///   position(b) = N sum_{i before block b} w_i / sum_i w_i - u,   first(b) = ceil(position(b))
+///   position(b) = N sum_{i before block b} w_i / sum_i w_i - u,   first(b) = ceil(position(b)),   N children
 ///
 /// shape   (blocks + 1,); blocks without weight have no children. The blocks are those of one process, the children are
 ///         numbered over all: first.front() = 0 on the first rank, first.back() = N on the last
@@ -92,8 +92,8 @@ class BlockSums {
   Totals totals() const;
   /// Mean and standard deviation of every component.
   void moments(const Totals& totals, std::span<Moments> all) const;
-  /// Fills the map for u in (0, 1); with a team after totals() of the same sums.
-  void map_children(const Totals& totals, double u, ChildMap& map) const;
+  /// Fills the map of so many children for u in (0, 1); with a team after totals() of the same sums.
+  void map_children(const Totals& totals, double u, std::size_t children, ChildMap& map) const;
 
  private:
   void add_up_with_team(std::span<ExactSum> sums) const {

@@ -7,6 +7,7 @@
 /// after which the sums of the blocks are added exactly: results do not depend on the number of threads, nor on the
 /// number of ranks where a team of processes shares the blocks.
 
+#include "mote/filter/elastic.hpp"
 #include "mote/filter/select.hpp"
 #include "mote/software/simd/block_pass.hpp"
 #include "mote/software/simd/migration.hpp"
@@ -25,7 +26,7 @@ inline namespace HWY_NAMESPACE {
 ///         exponent; with systematic resampling at every step nothing is allocated after the first steps
 /// source  docs/filters.md (F3) to (F6), (F27)
 template <Model M, class R, class G = Prior>
-class VectorImportanceFilter final : public Filter {
+class VectorImportanceFilter final : public Filter, public Elastic {
  public:
   VectorImportanceFilter(M model, std::size_t particles, std::uint64_t seed, const SelectionOptions& selection,
                          OnCollapse on_collapse, std::size_t threads, Estimates estimates = Estimates::kSpreads,
@@ -33,6 +34,7 @@ class VectorImportanceFilter final : public Filter {
       : seed_(seed),
         team_(team),
         share_(particles, team),
+        children_(particles),
         selection_(selection),
         on_collapse_(on_collapse),
         carries_(selection.ess_threshold < 1 || selection.exponent != 1),
@@ -81,13 +83,18 @@ class VectorImportanceFilter final : public Filter {
     if (!report.selected) return;
     const Draws draws{seed_, static_cast<std::uint32_t>(t)};
     if (selection_.scheme == &systematic_scheme() && selection_.exponent == 1) {
-      pass_.sums().map_children(pass_.totals(), draws.uniform(Purpose::kSelect), map_);
+      pass_.sums().map_children(pass_.totals(), draws.uniform(Purpose::kSelect), children_, map_);
+      make_room();
       parents_ = Parents::kMapped;
       level_ = true;
     } else {
       list_parents(draws);
     }
   }
+
+  /// Without a team.
+  void aim(std::size_t particles) override { children_ = particles; }
+  std::size_t weighed() const override { return now_.size(); }
 
   WeightedSet weighted() const override {
     shown_.resize(share_.all);
@@ -140,6 +147,18 @@ class VectorImportanceFilter final : public Filter {
   }
 
   std::size_t whole_blocks() const { return pass_.blocks() * kBlock; }
+
+  /// Makes room for the children of a selection, where they are not as many as their parents.
+  void make_room() {
+    if (children_ != share_.all) {
+      share_ = Share(children_, nullptr);
+      pass_.resize(share_.count);
+      if (carries_) log_weights_.resize(whole_blocks());
+      while (desks_.size() < crew_.shares(pass_.blocks())) desks_.emplace_back(now_.dimensions());
+    }
+    next_.resize(share_.count);
+    next_weights_.resize(whole_blocks());
+  }
 
   /// One pass over all blocks: states from their parents, weights, sums.
   template <Source kSource, Weights kWeights>
@@ -201,8 +220,9 @@ class VectorImportanceFilter final : public Filter {
   /// Parents by any scheme, with the weights that children carry when the exponent is not 1.
   void list_parents(const Draws& draws) {
     weighted();
-    std::vector<double> carried(now_.size());
+    std::vector<double> carried(children_);
     ancestors_ = draw_survivors(shown_, carried, 0, selection_, draws);
+    make_room();
     parents_ = Parents::kListed;
     level_ = selection_.exponent == 1;
     if (level_) return;
@@ -232,6 +252,7 @@ class VectorImportanceFilter final : public Filter {
   std::uint64_t seed_;
   Team* team_;
   Share share_;
+  std::size_t children_;  // that the next selection leaves
   SelectionOptions selection_;
   OnCollapse on_collapse_;
   bool carries_;  // log weights are kept from step to step

@@ -4,6 +4,7 @@
 
 #include "mote/engine/checkpoint_laws.hpp"
 #include "mote/engine/thread_teams.hpp"
+#include "mote/filter/adaptive.hpp"
 #include "mote/filter/sisr.hpp"
 #include "mote/model/bearings.hpp"
 #include "mote/model/doa.hpp"
@@ -175,6 +176,36 @@ TEST(VectorImportanceFilter, SelectsAsTheReferenceFilterDoes) {
         plan.selection = {&scheme, threshold, exponent};
         EXPECT_LT((distance_of_engines(Ungm<1>{}, plan)), kSame) << scheme.name << " " << threshold << " " << exponent;
       }
+}
+
+/// Both engines with numbers of particles that follow the weights; how far these went is noted.
+double distance_of_adaptive_engines(const SelectionOptions& selection, std::size_t threads, ParticleCounts& counts) {
+  const Ungm<1> model;
+  Plan plan = plan_of();
+  plan.selection = selection;
+  plan.threads = threads;
+  const Recording recording = recording_of(model);
+  const AdaptiveOptions options{.most = plan.particles, .error = 0.06};
+  AdaptiveFilter expected(reference(model, plan), options);
+  AdaptiveFilter vector(vectors(model, plan), options);
+  const auto rows = rows_of(model, vector, plan, recording);
+  counts = vector.counts();
+  return distance(rows, rows_of(model, expected, plan, recording));
+}
+
+// claim    a selection that leaves more or fewer than it found is the reference's, by every scheme, over blocks'
+// borders referee  the reference engine, whose numbers follow the same weights
+TEST(VectorImportanceFilter, ChangesItsNumberAsTheReferenceFilterDoes) {
+  for (const Scheme& scheme : schemes())
+    for (const double exponent : {1.0, 0.5}) {
+      ParticleCounts counts;
+      EXPECT_LT(distance_of_adaptive_engines({&scheme, 1, exponent}, 1, counts), kSame)
+          << scheme.name << " " << exponent;
+      EXPECT_LT(counts.least, 1024U);
+      EXPECT_EQ(counts.most, 1501U);
+    }
+  ParticleCounts counts;
+  EXPECT_LT(distance_of_adaptive_engines({&systematic_scheme(), 0.5, 1}, 2, counts), kSame);
 }
 
 TEST(VectorImportanceFilter, ProposesAsTheReferenceFilterDoes) {

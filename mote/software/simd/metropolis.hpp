@@ -13,6 +13,7 @@
 
 #include "mote/base/permutation.hpp"
 #include "mote/engine/plan.hpp"
+#include "mote/filter/elastic.hpp"
 #include "mote/software/share.hpp"
 #include "mote/software/simd/block_pass.hpp"
 #include "mote/software/simd/chains.hpp"
@@ -34,7 +35,7 @@ inline namespace HWY_NAMESPACE {
 ///         memory (2 D + 2) sizeof(R) (Q + P N_b) bytes
 /// source  docs/filters.md (F11) to (F20), (F27)
 template <Model M, class R, class G = Prior>
-class VectorMetropolisFilter final : public Filter {
+class VectorMetropolisFilter final : public Filter, public Elastic {
  public:
   VectorMetropolisFilter(M model, std::size_t particles, std::uint64_t seed, const ChainOptions& options,
                          OnCollapse on_collapse, std::size_t threads, Estimates estimates = Estimates::kSpreads,
@@ -45,22 +46,14 @@ class VectorMetropolisFilter final : public Filter {
         on_collapse_(on_collapse),
         layout_{particles, options.draws == 0 ? particles : options.draws, options.chains, options.burn_in.value_or(0)},
         share_(layout_, team),
-        blocks_of_set_(blocks_of(particles), share_.rank,
-                       [&](std::size_t r) {
-                         const Share share(particles, share_.ranks, r);
-                         return std::array{Stretch{share.first, share.end()}};
-                       }),
-        blocks_of_proposals_(blocks_of(layout_.proposals()), share_.rank,
-                             [&](std::size_t r) { return share_.visited(r); }),
+        aimed_(particles),
+        blocks_of_set_(shared_set()),
+        blocks_of_proposals_(shared_proposals()),
         crew_(threads),
         set_(model.states().size(), particles),
         proposals_(model.states().size(), layout_.proposals()),
         pass_(std::move(model), particles, set_, estimates == Estimates::kSpreads, team, particles) {
-    log_weights_.resize(blocks_of(layout_.proposals()) * kBlock);
-    log_uniforms_.resize(log_weights_.size());
-    const std::size_t most = std::max(blocks_of_set_.made.size(), blocks_of_proposals_.made.size());
-    for (std::size_t k = 0; k < crew_.shares(most); ++k) desks_.emplace_back(set_.dimensions());
-    if (kCarried == 0) number_proposals();
+    make_room();
     pass<Source::kPrior, Weights::kEqual>(0, Purpose::kPrior, set_);
   }
 
@@ -74,6 +67,7 @@ class VectorMetropolisFilter final : public Filter {
 
   StepReport update(Step t, Rows<double> rows) override {
     complete_what_was_read();
+    if (aimed_ != layout_.kept) follow_aim();
     pass_.take(rows, set_);
     pass<Source::kProposal, Weights::kFresh>(t, Purpose::kMove, proposals_);
     if (pass_.totals().collapsed()) return recovered(t);
@@ -85,6 +79,10 @@ class VectorMetropolisFilter final : public Filter {
 
   void select(Step t, StepReport& report) override {
     if (weighted_ == &set_) return;
+    if (set_.size() != layout_.kept) {
+      set_.resize(layout_.kept);
+      blocks_of_set_ = shared_set();
+    }
     std::vector<Index> starts;
     if (options_.start == ChainStart::kWeighted && !report.collapsed) starts = weighted_starts(t);
     const ChainReport chain = run_chains(starts);
@@ -102,6 +100,10 @@ class VectorMetropolisFilter final : public Filter {
     return {weighted_, shown_, pass_.totals().weight};
   }
 
+  /// Without a team; chains then keep all that they draw.
+  void aim(std::size_t particles) override { aimed_ = particles; }
+  std::size_t weighed() const override { return weighted_->size(); }
+
   /// A team's lowest rank keeps the set for all.
   void keep(Archive& archive) override {
     if (share_.rank == 0) archive(set_);
@@ -118,6 +120,32 @@ class VectorMetropolisFilter final : public Filter {
   using V = typename Pass::V;
   using Source = typename Pass::Source;
   using Weights = typename Pass::Weights;
+
+  BlockShare shared_set() const {
+    return {blocks_of(layout_.kept), share_.rank, [&](std::size_t r) {
+              const Share share(layout_.kept, share_.ranks, r);
+              return std::array{Stretch{share.first, share.end()}};
+            }};
+  }
+  BlockShare shared_proposals() const {
+    return {blocks_of(layout_.proposals()), share_.rank, [&](std::size_t r) { return share_.visited(r); }};
+  }
+  /// Makes room for the proposals of the layout.
+  void make_room() {
+    log_weights_.resize(blocks_of(layout_.proposals()) * kBlock);
+    log_uniforms_.resize(log_weights_.size());
+    const std::size_t most = std::max(blocks_of_set_.made.size(), blocks_of_proposals_.made.size());
+    while (desks_.size() < crew_.shares(most)) desks_.emplace_back(set_.dimensions());
+    if (kCarried == 0) number_proposals();
+  }
+  /// The next proposals are as many as was aimed at; their parents are the set as it is.
+  void follow_aim() {
+    layout_.kept = layout_.draws = aimed_;
+    share_ = ChainShare(layout_, team_);
+    blocks_of_proposals_ = shared_proposals();
+    proposals_.resize(layout_.proposals());
+    make_room();
+  }
 
   /// The weights of all particles, whoever made them.
   void weigh_all() const {
@@ -213,11 +241,11 @@ class VectorMetropolisFilter final : public Filter {
   /// Puts the parents of the proposals of block b on the desk, and draws what the chains decide on these by.
   void fetch_parents(Desk& desk, Step t, std::size_t b) {
     const Deal deal{address(t, Purpose::kParent, b), address(t, Purpose::kAccept, b), pass_.size_of(b),
-                    static_cast<Index>(layout_.kept)};
+                    static_cast<Index>(set_.size())};
     if (options_.parents == mote::Parents::kIid)
       return deal_out<true>(deal, set_, desk, log_uniforms_.data() + b * kBlock);
-    const Permutation permutation(layout_.kept, seed_ ^ mixed(static_cast<std::uint64_t>(t)));
-    Index member = static_cast<Index>(b * kBlock % layout_.kept);
+    const Permutation permutation(set_.size(), seed_ ^ mixed(static_cast<std::uint64_t>(t)));
+    Index member = static_cast<Index>(b * kBlock % set_.size());
     for (std::size_t i = 0; i < deal.count; ++i) {
       desk.parents[i] = options_.parents == mote::Parents::kSweep ? member : static_cast<Index>(permutation(member));
       member = member + 1 == deal.members ? 0 : member + 1;
@@ -364,6 +392,7 @@ class VectorMetropolisFilter final : public Filter {
   OnCollapse on_collapse_;
   ChainLayout layout_;
   ChainShare share_;
+  std::size_t aimed_;  // N of the next proposals
   BlockShare blocks_of_set_, blocks_of_proposals_;
   Crew crew_;
   Particles<R> set_;                      // the unweighted set S_{t-1}

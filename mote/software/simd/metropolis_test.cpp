@@ -4,6 +4,7 @@
 
 #include "mote/engine/checkpoint_laws.hpp"
 #include "mote/engine/thread_teams.hpp"
+#include "mote/filter/adaptive.hpp"
 #include "mote/filter/imh.hpp"
 #include "mote/model/bearings.hpp"
 #include "mote/model/linear_gaussian.hpp"
@@ -147,6 +148,40 @@ TEST(VectorMetropolis, IsTheReferenceStepByStep) {
   expect_reference_by_observation<double>(1e-3);
 }
 
+LinearGaussian six_states() {
+  LinearGaussianParameters p;
+  p.F = 0.9 * Eigen::MatrixXd::Identity(6, 6);
+  p.Q = 0.5 * Eigen::MatrixXd::Identity(6, 6);
+  p.H = Eigen::MatrixXd::Identity(2, 6);
+  p.R = Eigen::MatrixXd::Identity(2, 2);
+  p.mean = Eigen::VectorXd::Zero(6);
+  p.covariance = Eigen::MatrixXd::Identity(6, 6);
+  p.state_names = {"a", "b", "c", "d", "e", "f"};
+  p.observation_names = {"y1", "y2"};
+  return LinearGaussian(p);
+}
+
+// claim    proposals that are more or fewer than their parents are the reference's, with states that chains carry and
+//          with those that are gathered
+// referee  the reference engine, whose numbers follow the same weights
+TEST(VectorMetropolis, ChangesItsNumberAsTheReferenceDoes) {
+  const auto check = [](const auto& model, const ChainOptions& chains) {
+    const Plan plan = plan_of({3000, chains});
+    const auto rows = drawn_rows(model, 30);
+    const AdaptiveOptions options{.most = 3000, .error = 0.05};
+    AdaptiveFilter expected(reference_filter(model, plan, "test"), options);
+    AdaptiveFilter vector(vectors(model, plan), options);
+    const std::size_t dimensions = model.states().size();
+    EXPECT_LT(difference(run(vector, rows, dimensions), run(expected, rows, dimensions), 0.1), 1e-3);
+    EXPECT_LT(vector.counts().least, 2048U);
+    EXPECT_EQ(vector.counts().most, 3000U + chains.chains * *chains.burn_in);
+  };
+  for (const auto parents : {mote::Parents::kIid, mote::Parents::kPermuted, mote::Parents::kSweep})
+    for (const auto start : {ChainStart::kFirst, ChainStart::kWeighted})
+      check(Ungm<1>{}, {.burn_in = 21, .chains = 19, .parents = parents, .start = start});
+  check(six_states(), {.burn_in = 0, .chains = 8});
+}
+
 // In float a chain's decision may fall the other way, and with it one of N states.
 TEST(VectorMetropolis, IsTheReferenceStepByStepInFloat) {
   expect_reference(Ungm<1>{}, Precision::kFloat, 0.1, 0.05);
@@ -275,19 +310,6 @@ struct Doomed : LocalLevel {
     return t % 3 == 0 ? S(-kInfinity) : LocalLevel::log_likelihood<S>(t, x, row);
   }
 };
-
-LinearGaussian six_states() {
-  LinearGaussianParameters p;
-  p.F = 0.9 * Eigen::MatrixXd::Identity(6, 6);
-  p.Q = 0.5 * Eigen::MatrixXd::Identity(6, 6);
-  p.H = Eigen::MatrixXd::Identity(2, 6);
-  p.R = Eigen::MatrixXd::Identity(2, 2);
-  p.mean = Eigen::VectorXd::Zero(6);
-  p.covariance = Eigen::MatrixXd::Identity(6, 6);
-  p.state_names = {"a", "b", "c", "d", "e", "f"};
-  p.observation_names = {"y1", "y2"};
-  return LinearGaussian(p);
-}
 
 // Uneven shares of chains; blocks that chains of two ranks visit, and burn-in far from what is kept; states that chains
 // carry along (one, four) and that they do not (six).

@@ -31,7 +31,7 @@ struct Weighted {
   /// Children of every particle, written in shares that begin at the given blocks.
   std::vector<double> children(double u, const std::vector<std::size_t>& shares) const {
     ChildMap map;
-    sums.map_children(sums.totals(), u, map);
+    sums.map_children(sums.totals(), u, sums.particles(), map);
     std::vector<double> counts(x.size());
     AlignedVector<R> block(kBlock);
     for (std::size_t s = 0; s < shares.size(); ++s) {
