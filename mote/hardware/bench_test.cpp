@@ -1,5 +1,7 @@
 #include "mote/hardware/bench.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest-spi.h>
 #include <gtest/gtest.h>
 
@@ -27,6 +29,16 @@ struct Late : Sum {
 struct Rough : Sum {
   void compute(Columns in, Results out) const { Sum{a, b, y, false, {Rounding::kDown}}.compute(in, out); }
 };
+
+TEST(Library, LeavesOutWhatACommentNames) {
+  const std::vector<RtlFile> files =
+      needed_of_library("// as mote_imh is\nmodule m;\n  mote_sisr u ();  // no mote_chain\n");
+  const auto has = [&](std::string_view name) {
+    return std::any_of(files.begin(), files.end(), [&](const RtlFile& file) { return file.name == name; });
+  };
+  EXPECT_TRUE(has("mote_sisr.sv") && has("mote_steps.sv"));
+  EXPECT_FALSE(has("mote_imh.sv") || has("mote_chain.sv") || has("mote_log_uniform.sv"));
+}
 
 // The twins that must fail: without them a bench that compares nothing would pass.
 TEST(Lockstep, CatchesAWrongLatency) {

@@ -6,11 +6,12 @@
 namespace mote::hardware {
 namespace {
 
-/// Whether a text uses a word, not only as a part of a longer one; comments count.
+/// Whether a text uses a word, not only as a part of a longer one or in a comment.
 bool names(std::string_view text, std::string_view word) {
   const auto inside = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
   for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1)) {
     const std::size_t end = at + word.size();
+    if (text.substr(0, at).find("//", text.rfind('\n', at) + 1) != std::string_view::npos) continue;
     if ((at == 0 || !inside(text[at - 1])) && (end == text.size() || !inside(text[end]))) return true;
   }
   return false;

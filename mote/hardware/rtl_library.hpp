@@ -17,7 +17,8 @@ struct RtlFile {
 /// Every file of the library, in the order of the alphabet.
 std::span<const RtlFile> rtl_library();
 
-/// The files whose modules a text names, and those that they name in turn, in the order of the alphabet.
+/// The files whose modules a text names outside its comments, and those that they name in turn, in the order of the
+/// alphabet.
 std::vector<RtlFile> needed_of_library(const std::string& text);
 
 }  // namespace mote::hardware

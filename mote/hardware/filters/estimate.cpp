@@ -21,7 +21,7 @@ std::vector<std::int64_t> weighted_means(std::span<const std::vector<std::int64_
                                          std::span<const ScaledWeight> weights, std::uint64_t divisor,
                                          const Formats& formats) {
   __extension__ using Wide = __int128;
-  const unsigned dropped = std::min(8U, formats.value_bits - 1);
+  const unsigned dropped = formats.value_bits - 1;
   const std::int64_t half = std::int64_t{1} << (dropped - 1);
   std::vector<std::int64_t> means;
   means.reserve(states.size());

@@ -31,7 +31,8 @@ std::uint64_t sum_of(std::span<const ScaledWeight> weights);
 /// Weighted means of a step's states: floor(sum v x / divisor), each sum going down by the scale's rise before a row is
 /// added.
 ///
-/// Products are rounded to 8 bits less (those of narrow states to one bit less than a state has), halves up.
+/// Products are rounded to value_bits - 1 less, halves up: to a unit of weight, as which weights are cut, times the
+/// largest state.
 ///
 /// shape   states: dims columns of n, value_bits each; weights: (n); means: (dims), extra_bits fraction bits more than
 ///         the states

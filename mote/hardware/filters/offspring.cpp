@@ -6,20 +6,12 @@
 namespace mote::hardware {
 
 std::uint32_t reciprocal_of(std::uint32_t x) {
-  const auto entry = [](std::uint32_t i) { return (1U << 26) / (256 + i) - 1; };
-  const std::uint32_t i = (x >> 9) & 255;
-  return ((entry(i) << 9) - (entry(i) - entry(i + 1)) * (x & 511)) >> 9;
+  const std::uint32_t middle = 129 + 2 * ((x >> 11) & 63);  // of a segment of 64, in units of 2^10
+  const std::uint32_t square = middle * middle;
+  const auto base = static_cast<std::uint32_t>((std::uint64_t{middle + 1} << 25) / square);
+  const std::uint32_t slope = ((1U << 26) + square - 1) / square;
+  return ((base << 11) - slope * (x & 2047)) >> 11;
 }
-
-namespace {
-
-/// A weight some quanta lower and whole bytes higher, cut; nothing from kNothing quanta on.
-std::uint64_t moved(std::uint64_t weight, unsigned down, unsigned up) {
-  if (down >= kNothing) return 0;
-  return up >= down ? weight << (8 * (up - down)) : weight >> (8 * (down - up));
-}
-
-}  // namespace
 
 std::vector<std::uint32_t> Offspring::ends(std::span<const ScaledWeight> weights, std::uint64_t total,
                                            std::uint32_t uniform) const {
@@ -33,7 +25,8 @@ std::vector<std::uint32_t> Offspring::ends(std::span<const ScaledWeight> weights
   ends.reserve(weights.size());
   std::uint64_t sum = 0;
   for (const ScaledWeight& w : weights) {
-    sum += (moved(w.weight, quanta_between(w.scale, weights.back().scale), zeros / 8) << (zeros % 8)) >> count_bits;
+    const std::uint64_t weight = lowered(w.weight, quanta_between(w.scale, weights.back().scale));
+    sum += (weight << zeros) >> count_bits;
     const std::uint64_t share = sum >> (weight_bits - 17);
     const std::uint64_t place = share * factor + (std::uint64_t{uniform} << (fraction - 24));
     ends.push_back(static_cast<std::uint32_t>(place >> fraction));
@@ -54,7 +47,7 @@ ChildrenWalk::ChildrenWalk(std::span<const std::uint32_t> ends, unsigned lanes, 
       lanes_(lanes),
       rows_((ends.size() + 2 * lanes - 1) / (2 * lanes)),
       latency_(9 + static_cast<std::size_t>(std::countr_zero(lanes))),
-      now_(last_write + (lanes > 4 ? 2 : 1)) {}
+      now_(last_write + 1 + static_cast<std::size_t>(std::countr_zero(lanes))) {}
 
 /// The children up to a row's last particle.
 std::uint32_t ChildrenWalk::end_of(std::size_t row) const {

@@ -11,15 +11,16 @@
 
 namespace mote::hardware {
 
-/// 2^35 / x to 17 bits, never too large.
+/// 2^35 / x to 13 bits, never too large.
 ///
 /// shape   x: 18 bits, the top one set
 std::uint32_t reciprocal_of(std::uint32_t x);
 
-/// How many children the particles up to each have together: floor(C_i N / T + v), C_i / T as 17 bits; the last: N.
+/// How many children the particles up to each have together: floor(C_i N / T + v), C_i / T as 17 bits; the last: N. Of
+/// weights at the last one's scale, cut, no C_i is above T.
 ///
 /// shape   weights: (N); result: (N), not decreasing
-/// error   the last particle gains below N 2^-14 children, the others lose as many together
+/// error   the last particle gains below N 2^-13 children, the others lose as many together
 struct Offspring {
   unsigned weight_bits;  ///< of a weight
   unsigned count_bits;   ///< N <= 2^count_bits

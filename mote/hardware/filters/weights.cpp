@@ -30,16 +30,16 @@ void write(const std::filesystem::path& file, const Table& table) {
 std::int64_t scale_needed(std::int64_t log_weight) { return (log_weight >> (kLogFraction + 3)) + 1; }
 
 std::uint64_t weight_at(std::int64_t log_weight, std::int64_t scale, unsigned weight_bits) {
-  const std::uint64_t power = exp2_table()[static_cast<std::size_t>(log_weight & 1023)];
+  const std::uint64_t power = exp2_table()[static_cast<std::size_t>(log_weight & 1023)] | 1U << kMantissaBits;
   const auto fine = static_cast<unsigned>(7 - ((log_weight >> kLogFraction) & 7));
-  return lowered(power << (weight_bits - 16), quanta_between(scale_needed(log_weight), scale)) >> fine;
+  return lowered(power << (weight_bits - 1 - kMantissaBits), quanta_between(scale_needed(log_weight), scale)) >> fine;
 }
 
 }  // namespace
 
 const std::array<std::uint16_t, 1024>& exp2_table() {
-  static const auto table =
-      filled<std::array<std::uint16_t, 1024>>([](double k) { return std::ldexp(std::exp2(k / 1024), 15); });
+  static const auto table = filled<std::array<std::uint16_t, 1024>>(
+      [](double k) { return std::ldexp(std::exp2(k / 1024) - 1, kMantissaBits); });
   return table;
 }
 

@@ -16,7 +16,10 @@ constexpr unsigned kQuantum = 8;
 /// Quanta below the scale from which on a weight counts as nothing.
 constexpr unsigned kNothing = 3;
 
-/// round(2^15 2^(k / 1024)): the mantissas of weights.
+/// Bits of a weight's mantissa behind its leading one.
+constexpr unsigned kMantissaBits = 12;
+
+/// round(2^12 (2^(k / 1024) - 1)): the mantissas of weights, without their leading ones.
 const std::array<std::uint16_t, 1024>& exp2_table();
 /// round(1024 (log2(1 + m) - m)) at m = (k + 1/2) / 128.
 const std::array<std::uint8_t, 128>& log2_table();
@@ -32,7 +35,7 @@ std::int64_t log_drop(std::uint32_t word);
 
 /// A weight at the scale of the largest so far.
 struct ScaledWeight {
-  std::uint64_t weight;  ///< 2^(lw - 8 scale) 2^weight_bits, cut
+  std::uint64_t weight;  ///< 2^(lw - 8 scale) 2^weight_bits by 1 + kMantissaBits bits, cut
   unsigned rise;         ///< quanta that sums so far go down by before it is added, at most kNothing: they begin anew
   std::int64_t scale;    ///< quanta of 8 octaves
 };

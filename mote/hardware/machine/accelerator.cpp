@@ -256,7 +256,8 @@ Accelerator resampler_accelerator(std::uint32_t most, std::uint32_t n, std::uint
   Formats f;
   f.count_bits = static_cast<unsigned>(at);
   const Format parent{false, at, 0};
-  Circuit exponential{"", {}, {}, {}, 0, false, {{"Exp2Table", 16, {exp2_table().begin(), exp2_table().end()}}}};
+  Circuit exponential{
+      "", {}, {}, {}, 0, false, {{"Exp2Table", kMantissaBits, {exp2_table().begin(), exp2_table().end()}}}};
   Accelerator made{"mote_resampler_" + std::to_string(1 << at),
                    "systematic resampling of sets of particles",
                    "a log weight a clock, then up to a parent a clock; the next set when the last parent has left",

@@ -227,7 +227,7 @@ std::vector<Parameter> Machine::parameters() const {
 }
 
 std::vector<Memory> Machine::filter_tables() const {
-  std::vector<Memory> all{table_of("Exp2Table", 16, exp2_table())};
+  std::vector<Memory> all{table_of("Exp2Table", kMantissaBits, exp2_table())};
   if (architecture_->chain) all.push_back(table_of("Log2Table", 8, log2_table()));
   return all;
 }

@@ -1,4 +1,4 @@
-// module mote_offspring  At=6 Width=17 ScaleWidth=4
+// module mote_offspring  At=6 Width=17
 // within 8
 // free   $mul $mem_v2
 // twin   assign read_at = {~bank_q, row_q}; -> assign read_at = {bank_q, row_q};

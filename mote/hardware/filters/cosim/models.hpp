@@ -82,4 +82,22 @@ inline Arithmetic growth() {
   return model;
 }
 
+/// cosim/sisr_ranked.sv; observed: how many particles have a weight.
+inline Arithmetic ranked() {
+  Arithmetic model;
+  model.formats.dims = 2;
+  model.formats.value_bits = 12;
+  model.formats.propose_latency = model.formats.weigh_latency = 1;
+  model.propose = [](unsigned t, Observed, const Particles& parents, const WordColumns&, Particles& states) {
+    for (std::size_t j = 0; j < states[0].size(); ++j) {
+      states[0][j] = static_cast<std::int64_t>(j);
+      states[1][j] = t == 1 ? 0 : parents[0][j];
+    }
+  };
+  model.weigh = [](unsigned, Observed observed, const Particles& states, std::span<std::int64_t> log_weights) {
+    for (std::size_t j = 0; j < log_weights.size(); ++j) log_weights[j] = states[0][j] < observed[0] ? 0 : -1048576;
+  };
+  return model;
+}
+
 }  // namespace mote::hardware::cosim

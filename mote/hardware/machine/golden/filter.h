@@ -56,8 +56,9 @@ static inline uint32_t mote_next(mote_words *w) {
 
 // ---- weights: rtl/filters/mote_weight.sv, mote_log_uniform.sv
 
-// Fraction bits of log weights; octaves of a step of scale; steps below the scale from which on a weight is nothing.
-enum { kLogFraction = 10, kQuantum = 8, kNothing = 3 };
+// Fraction bits of log weights; octaves of a step of scale; steps below the scale from which on a weight is nothing; bits
+// of a weight's mantissa behind its leading one.
+enum { kLogFraction = 10, kQuantum = 8, kNothing = 3, kMantissaBits = 12 };
 
 typedef struct {
   uint64_t weight;
@@ -74,9 +75,9 @@ static inline int mote_steps_between(int64_t before, int64_t after) {
 static inline int64_t mote_scale_needed(int64_t log_weight) { return (log_weight >> (kLogFraction + 3)) + 1; }
 
 static inline uint64_t mote_weight_at(int64_t log_weight, int64_t scale) {
-  const uint64_t power = u_filter_exp2table[log_weight & 1023].low;
+  const uint64_t power = u_filter_exp2table[log_weight & 1023].low | UINT64_C(1) << kMantissaBits;
   const int fine = (int)(7 - ((log_weight >> kLogFraction) & 7));
-  const int64_t whole = (int64_t)(power << (WeightWidth - 16));
+  const int64_t whole = (int64_t)(power << (WeightWidth - 1 - kMantissaBits));
   return (uint64_t)mote_lowered(whole, mote_steps_between(mote_scale_needed(log_weight), scale)) >> fine;
 }
 
@@ -113,11 +114,11 @@ static inline uint64_t mote_sum(const mote_weight *weights, uint32_t count) {
   return sum;
 }
 
-// The weighted mean of state d, rounded down; particles without weights count alike. Products lose 8 bits, or all but one
-// of a narrow state's.
+// The weighted mean of state d, rounded down; particles without weights count alike. Products are rounded to what a unit of
+// weight times the largest state is.
 static inline int64_t mote_mean(uint32_t (*states)[StateWords], const mote_weight *weights, uint32_t count, int d,
                                 uint64_t divisor) {
-  const int dropped = ValueWidth - 1 < 8 ? ValueWidth - 1 : 8;
+  const int dropped = ValueWidth - 1;
   const int64_t half = INT64_C(1) << (dropped - 1);
   int64_t total = 0;
   for (uint32_t i = 0; i < count; ++i) {

@@ -27,20 +27,19 @@ static void take_parent(struct filter *f, uint32_t child, uint32_t parent) {
   for (int w = 0; w < StateWords; ++w) f->parents[child][w] = f->set[parent][w];
 }
 
-static uint32_t reciprocal_entry(uint32_t i) { return (UINT32_C(1) << 26) / (256 + i) - 1; }
-
-// 2^35 / x to 17 bits, x of 18 bits with the top one set.
+// 2^35 / x to 13 bits, x of 18 bits with the top one set: by the tangent in the middle of one of 64 segments.
 static uint32_t reciprocal_of(uint32_t x) {
-  const uint32_t i = (x >> 9) & 255;
-  const uint32_t entry = reciprocal_entry(i);
-  return ((entry << 9) - (entry - reciprocal_entry(i + 1)) * (x & 511)) >> 9;
+  const uint32_t middle = 129 + 2 * ((x >> 11) & 63);
+  const uint32_t square = middle * middle;
+  const uint32_t base = (uint32_t)(((uint64_t)(middle + 1) << 25) / square);
+  const uint32_t slope = ((UINT32_C(1) << 26) + square - 1) / square;
+  return ((base << 11) - slope * (x & 2047)) >> 11;
 }
 
-// A weight at the last scale, whole bytes higher.
-static uint64_t moved(const struct filter *f, uint32_t i, int up) {
-  const int down = mote_steps_between(f->weights[i].scale, f->weights[f->now.n - 1].scale);
-  if (down >= kNothing) return 0;
-  return up >= down ? f->weights[i].weight << (8 * (up - down)) : f->weights[i].weight >> (8 * (down - up));
+// A weight at the last scale.
+static uint64_t at_last_scale(const struct filter *f, uint32_t i) {
+  const mote_weight *w = &f->weights[i];
+  return (uint64_t)mote_lowered((int64_t)w->weight, mote_steps_between(w->scale, f->weights[f->now.n - 1].scale));
 }
 
 static void choose_parents(struct filter *f) {
@@ -51,7 +50,7 @@ static void choose_parents(struct filter *f) {
       ((uint64_t)reciprocal_of((uint32_t)((f->total << zeros) >> (sum_bits - 18))) * n) >> drop;
   uint64_t sum = 0;
   for (uint32_t i = 0, child = 0; i < n; ++i) {
-    sum += (moved(f, i, zeros / 8) << (zeros % 8)) >> At;
+    sum += (at_last_scale(f, i) << zeros) >> At;
     const uint64_t share = sum >> (WeightWidth - 17);
     const uint64_t place = share * factor + ((uint64_t)f->uniform << (fraction - 24));
     const uint32_t end = i + 1 == n ? n : (uint32_t)(place >> fraction);

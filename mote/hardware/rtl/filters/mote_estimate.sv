@@ -4,7 +4,7 @@
 //   sum = sum_j w_j,   mean = floor((sum_j v_j x_j) / den),   den = sum, or count_i 2^16 for equal values (equal_i)
 //
 // Sums follow a rising scale: before a row comes in, the sum so far goes down by 8 rise bits (floor), or begins anew where
-// rise is 3. Products are rounded to Dropped bits less.
+// rise is 3. Products are rounded to a unit of weight, as which weights are cut, times the largest value.
 //
 // formats  weights: unsigned; values: Dims signed words; mean_o: signed, Extra fraction bits more than the values;
 //          evidence of a step = sum_o 2^(8 scale_o - Width) / proposals
@@ -56,7 +56,7 @@ module mote_estimate #(
     output logic signed [ScaleWidth-1:0]          scale_o,
     output logic        [At:0]                    accepted_o
 );
-  localparam int unsigned Dropped = ValueWidth > 8 ? 8 : ValueWidth - 1;
+  localparam int unsigned Dropped = ValueWidth - 1;
   localparam int unsigned ProductWidth = Width + 1 + ValueWidth;
   localparam int unsigned TermWidth = ProductWidth - Dropped;
   localparam int unsigned TotalWidth = SumWidth + ValueWidth - Dropped;

@@ -192,6 +192,7 @@ module mote_groups #(
   // ---- groups: weights at each one's scale
   for (genvar l = 0; l < Lanes; l++) begin : gen_group
     logic [1:0] rise;
+    logic [17:0] weight_short;
     logic [GroupSumWidth-1:0] total_q;
     mote_weight #(.LogWidth(LogWidth), .Width(WeightWidth), .Table(Exp2Table)) u_weight (
         .clk_i, .rst_ni,
@@ -201,6 +202,7 @@ module mote_groups #(
         .valid_o(valids[l]),
         .rise_o(rise),
         .weight_o(weight[l*WeightWidth+:WeightWidth]),
+        .short_o(weight_short),
         .scale_o(scale[l*ScaleWidth+:ScaleWidth]));
     always_ff @(posedge clk_i) begin
       if (kept_valid_o)
@@ -214,7 +216,9 @@ module mote_groups #(
         .n_i(n_q),
         .write_i(kept_valid_o),
         .last_i(kept_last),
+        .rise_i(rise),
         .weight_i(weight[l*WeightWidth+:WeightWidth]),
+        .short_i(weight_short),
         .scale_i(scale[l*ScaleWidth+:ScaleWidth]),
         .total_i(total_q),
         .more_i(estimates_left_q != '0),

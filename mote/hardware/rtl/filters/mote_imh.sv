@@ -311,6 +311,7 @@ module mote_imh #(
   logic scaled_valid, weight_valid;
   logic [1:0] scaled_rise, weight_rise;
   logic [Lanes*WeightWidth-1:0] scaled, weight;
+  logic [Lanes*18-1:0] unused_short;
   logic [Lanes*StateWidth-1:0] inferred_state, kept;
   logic signed [ScaleWidth-1:0] scaled_scale, scale;
   logic kept_valid, kept_first;
@@ -322,6 +323,7 @@ module mote_imh #(
       .valid_o(scaled_valid),
       .rise_o(scaled_rise),
       .weight_o(scaled),
+      .short_o(unused_short),
       .scale_o(scaled_scale));
   mote_valid #(.Depth(HoldWeights)) u_weight_valid (
       .clk_i, .rst_ni, .valid_i(scaled_valid), .valid_o(weight_valid));

@@ -3,14 +3,14 @@
 //   J_i = floor(C_i q + v),  C_i = w_0 + ... + w_i as 17 bits of T = sum w,  q = N / T,  v ~ U[0, 1) of 24 bits
 //   particle i has the children J_(i-1) .. J_i - 1; the last one's J is N
 //
-// Weights are stored with the scale that they were made at and lowered to the last one's when they are read, as Width bits
-// of T. N / T is a factor (mote_reciprocal), never too large; so no J is above N, and the last particle gains below N 2^-14
-// children. Rows without children are left out; those after the last child are not read.
+// Weights are kept in short and lowered to the last one's scale when they are read, as Width bits of T (mote_share), so that no
+// C is above T. N / T is a factor (mote_reciprocal), never too large; so no J is above N, and the last particle gains below
+// N 2^-13 children. Rows without children are left out; those after the last child are not read.
 //
-// formats  weights: unsigned; ends_o: the J of a row's particles; row_o: the row's number
+// formats  short_i, rise_i, scale_i: mote_weight's, of the scale its 3 lowest bits; ends_o: the J of a row's particles; row_o: the row's number
 // range    n_i counts slots of Lanes particles, N = Lanes n_i; Lanes 1, 2, 4 or 8; At >= 6; T >= 2^(Width - 8)
-// timing   the first row is there 11 + log2 Lanes cycles (with 8 lanes one more) after the last weight is written, initiation
-//          interval 1 until the queue of Rows is full. total_i comes with total_valid_i 1 + log2 Lanes cycles after the last
+// timing   the first row is there 11 + 2 log2 Lanes cycles after the last weight is written, initiation interval 1 until the
+//          queue of Rows is full. total_i comes with total_valid_i 1 + log2 Lanes cycles after the last
 //          weight
 // golden   mote/hardware/filters/offspring.hpp
 // source   Kitagawa 1996 (systematic resampling)
@@ -18,7 +18,6 @@ module mote_offspring #(
     parameter int unsigned Lanes      = 1,
     parameter int unsigned At         = 10,
     parameter int unsigned Width      = 24,
-    parameter int unsigned ScaleWidth = 12,
     parameter int unsigned Rows       = 32,
     localparam int unsigned Many      = 2 * Lanes,
     localparam int unsigned RowWidth  = At - $clog2(Many),
@@ -31,8 +30,9 @@ module mote_offspring #(
     // weights, slot after slot
     input  logic                         write_i,
     input  logic                         last_i,
-    input  logic [Lanes*Width-1:0]       weight_i,
-    input  logic signed [ScaleWidth-1:0] scale_i,
+    input  logic [Lanes*18-1:0]          short_i,
+    input  logic        [1:0]            rise_i,
+    input  logic        [2:0]            scale_i,
     // the end of a step
     input  logic                         total_valid_i,
     input  logic        [SumWidth-1:0]   total_i,
@@ -45,8 +45,7 @@ module mote_offspring #(
 );
   localparam int unsigned Levels = $clog2(Many);
   localparam int unsigned Latency = 8 + Levels;  // from reading a row to its ends
-  localparam int unsigned Later = Lanes > 4 ? 1 : 0;  // cycles that reading waits for the total's leading zeros
-  localparam int unsigned WordWidth = Width + ScaleWidth;
+  localparam int unsigned Later = $clog2(Lanes);  // cycles that reading waits for the total's leading zeros
   localparam int unsigned Drop = At - 6;         // bits of N times the reciprocal that are left out
   localparam int unsigned Frac = 34 - Drop;      // fraction bits of C q
   localparam int unsigned RoomWidth = $clog2(Rows) + 1;
@@ -65,21 +64,20 @@ module mote_offspring #(
       if (last_i) bank_q <= ~bank_q;
     end
   end
-  logic signed [ScaleWidth-1:0] last_scale_q;
   row_t row_q;
   logic [RowWidth:0] write_at, read_at;
   assign write_at = {bank_q, written_q[RowWidth:1]};
   assign read_at = {~bank_q, row_q};
-  logic [Many*WordWidth-1:0] word;
+  logic [Many*18-1:0] word;
   for (genvar h = 0; h < 2; h++) begin : gen_half
     for (genvar l = 0; l < Lanes; l++) begin : gen_lane
-      mote_ram #(.Width(WordWidth), .Words(2 << RowWidth)) u_weights (
+      mote_ram #(.Width(18), .Words(2 << RowWidth)) u_weights (
           .clk_i,
           .write_i(write_i && written_q[0] == 1'(h)),
           .write_at_i(write_at),
-          .write_word_i({scale_i, weight_i[l*Width+:Width]}),
+          .write_word_i(short_i[l*18+:18]),
           .read_at_i(read_at),
-          .read_word_o(word[(h*Lanes+l)*WordWidth+:WordWidth]));
+          .read_word_o(word[(h*Lanes+l)*18+:18]));
     end
   end
 
@@ -107,10 +105,8 @@ module mote_offspring #(
     else {popped_q, left_out_q, all_q} <= {pop_i && !drop_i, left_out && !drop_i, push && row_end == all_n};
   end
   always_ff @(posedge clk_i) begin
-    if (last_i) begin
-      row_q <= '0;
-      last_scale_q <= scale_i;
-    end else if (reads) row_q <= row_q + RowWidth'(1);
+    if (last_i) row_q <= '0;
+    else if (reads) row_q <= row_q + RowWidth'(1);
   end
 
   // ---- the factor N / T
@@ -132,40 +128,32 @@ module mote_offspring #(
   logic unused_product;
   assign unused_product = ^product_n_q;
 
-  // ---- weights as parts of the total: lowered to the last scale, raised by the total's leading zeros
-  function automatic logic [1:0] limited(input logic [ScaleWidth-1:0] difference);
-    limited = difference > ScaleWidth'(3) ? 2'd3 : difference[1:0];
-  endfunction
-  // By whole bytes: one multiplexer of the three bytes of a weight that may come to a place.
-  function automatic logic [SumWidth-1:0] moved(input logic [Width-1:0] weight, input logic [1:0] down,
-                                                input logic [ZerosWidth-4:0] up);
-    logic [SumWidth+15:0] wide;
-    wide = '0;
-    for (int by = 0; by < 3; by++) begin
-      for (int bytes = 0; bytes <= (At + 7) / 8; bytes++) begin
-        if (down == 2'(by) && up == (ZerosWidth - 3)'(bytes)) wide = (SumWidth + 16)'(weight) << (8 * (bytes + 2 - by));
-      end
-    end
-    moved = SumWidth'(wide >> 16);
-  endfunction
+  // ---- weights as parts of the total
+  logic [RowWidth:0] faint_before;
+  logic [2:0] level;
+  logic [5:0] by;
+  logic [6:0] mask;
+  logic [1:0] faint;  // slots of the row
+  mote_scales #(.At(At), .SlotWidth(RowWidth + 1), .ZerosWidth(ZerosWidth)) u_scales (
+      .clk_i, .write_i, .last_i, .slot_i(written_q[RowWidth:0]), .rise_i, .scale_i, .zeros_i(zeros),
+      .faint_before_o(faint_before), .level_o(level), .by_o(by), .mask_o(mask));
+  mote_delay #(.Width(2), .Depth(2)) u_faint (
+      .clk_i, .d_i({{row_q, 1'b1} < faint_before, {row_q, 1'b0} < faint_before}), .d_o(faint));
 
   // ---- cumulative sums: in the row, added to those before
-  logic [(Levels+1)*Many*Width-1:0] sums_q;  // level after level
+  logic [(Levels+1)*Many*Width-1:0] sums;  // level after level
   logic [Many*42-1:0] place_q;
   logic [Width-1:0] base_q;
-  logic sums;
-  mote_valid #(.Depth(5 + Levels)) u_sums (.clk_i, .rst_ni, .valid_i(reads), .valid_o(sums));
+  logic summed;
+  mote_valid #(.Depth(5 + Levels)) u_summed (.clk_i, .rst_ni, .valid_i(reads), .valid_o(summed));
   for (genvar i = 0; i < Many; i++) begin : gen_particle
-    logic [1:0] below_q;
-    logic [Width-1:0] weight_q, cum_q;
-    logic [SumWidth-1:0] coarse_q;
+    logic [Width-1:0] cum_q;
     logic [40:0] product_q;
+    mote_share #(.Width(Width)) u_share (
+        .clk_i, .short_i(word[i*18+:18]), .faint_i(faint[i/Lanes]), .by_i(by), .level_i(level), .mask_i(mask),
+        .share_o(sums[i*Width+:Width]));
     always_ff @(posedge clk_i) begin
-      below_q   <= limited(last_scale_q - word[i*WordWidth+Width+:ScaleWidth]);
-      weight_q  <= word[i*WordWidth+:Width];
-      coarse_q  <= moved(weight_q, below_q, zeros[ZerosWidth-1:3]);
-      sums_q[i*Width+:Width] <= Width'((coarse_q << zeros[2:0]) >> At);
-      cum_q     <= base_q + sums_q[(Levels*Many+i)*Width+:Width];
+      cum_q     <= base_q + sums[(Levels*Many+i)*Width+:Width];
       product_q <= 41'(cum_q[Width-1-:17]) * 41'(factor_q);
       place_q[i*42+:42] <= 42'(product_q) + 42'({uniform_q, {(Frac - 24) {1'b0}}});
     end
@@ -173,17 +161,18 @@ module mote_offspring #(
     assign unused_bits = ^cum_q[Width-18:0];
     for (genvar k = 0; k < Levels; k++) begin : gen_level
       localparam int unsigned Here = (k * Many + i) * Width;
+      logic [Width-1:0] sum_q;
       if (i >= (1 << k)) begin : gen_sum
-        always_ff @(posedge clk_i)
-          sums_q[Here+Many*Width+:Width] <= sums_q[Here+:Width] + sums_q[Here-(Width<<k)+:Width];
+        always_ff @(posedge clk_i) sum_q <= sums[Here+:Width] + sums[Here-(Width<<k)+:Width];
       end else begin : gen_copy
-        always_ff @(posedge clk_i) sums_q[Here+Many*Width+:Width] <= sums_q[Here+:Width];
+        always_ff @(posedge clk_i) sum_q <= sums[Here+:Width];
       end
+      assign sums[Here+Many*Width+:Width] = sum_q;
     end
   end
   always_ff @(posedge clk_i) begin
     if (last_i) base_q <= '0;
-    else if (sums) base_q <= base_q + sums_q[(Levels+1)*Many*Width-1-:Width];
+    else if (summed) base_q <= base_q + sums[(Levels+1)*Many*Width-1-:Width];
   end
 
   // ---- ends; rows without children are left out

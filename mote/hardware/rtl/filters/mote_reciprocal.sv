@@ -1,7 +1,7 @@
-// A divisor as a factor: the reciprocal of a positive number to 17 bits, never too large.
+// A divisor as a factor: the reciprocal of a positive number to 13 bits, never too large.
 //
-//   x = floor(divisor 2^zeros / 2^(Width - 18)), so 2^17 <= x < 2^18;   2^35 (1 - 2^-15) < reciprocal_o x <= 2^35
-//   by a table over the 8 bits of x below its leading one, and the line to its next entry
+//   x = floor(divisor 2^zeros / 2^(Width - 18)), so 2^17 <= x < 2^18;   2^35 (1 - 2^-13) < reciprocal_o x <= 2^35
+//   by a table over the 6 bits of x below its leading one: the tangent of 2^35 / x in the middle of each segment
 //
 // formats  divisor_i: unsigned; reciprocal_o: unsigned, 18 bits; zeros_o: the leading zeros of the divisor
 // range    the divisor has at most MostZeros leading zeros
@@ -18,13 +18,15 @@ module mote_reciprocal #(
     output logic [ZerosWidth-1:0] zeros_o,
     output logic [17:0]           reciprocal_o
 );
-  // Entry i: floor(2^26 / (2^8 + i)) - 1, as the line between entries is less than 1 above the curve; and minus what the next
-  // one is below it.
-  function automatic logic [17:0] entry(input int unsigned i);
-    entry = 18'(32'd67108864 / (32'd256 + i) - 32'd1);
+  // Entry i, with m = 129 + 2 i: floor(2^25 (m + 1) / m^2), where the tangent begins, and -ceil(2^26 / m^2), what it gains.
+  function automatic logic [30:0] entry(input int unsigned i);
+    longint unsigned middle;
+    middle = 64'd129 + 64'd2 * 64'(i);
+    entry = {18'(((middle + 64'd1) << 25) / (middle * middle)),
+             -13'((64'd67108864 + middle * middle - 64'd1) / (middle * middle))};
   endfunction
-  logic [28:0] table_rom[256];
-  initial for (int i = 0; i < 256; i++) table_rom[i] = {entry(i), 11'(entry(i + 1)) - 11'(entry(i))};
+  logic [30:0] table_rom[64];
+  initial for (int i = 0; i < 64; i++) table_rom[i] = entry(i);
 
   // Leading zeros: those of each byte, of the first byte that has a one.
   localparam int unsigned Last = MostZeros / 8;
@@ -41,27 +43,27 @@ module mote_reciprocal #(
 
   logic [Width-1:0] divisor_q, shifted;
   logic [16:0] below_q;
-  logic [8:0]  rest_q;
-  logic [28:0] entry_q;
+  logic [10:0] rest_q;
+  logic [30:0] entry_q;
   logic [17:0] base_q;
-  logic signed [10:0] slope;
-  logic signed [20:0] product_q;
-  logic signed [27:0] line_q;
+  logic signed [12:0] slope;
+  logic signed [24:0] product_q;
+  logic signed [29:0] line_q;
   assign shifted = divisor_q << zeros_o;
-  assign slope = entry_q[10:0];
-  assign reciprocal_o = line_q[26:9];
+  assign slope = entry_q[12:0];
+  assign reciprocal_o = line_q[28:11];
   always_ff @(posedge clk_i) begin
     if (load_i) begin
       divisor_q <= divisor_i;
       zeros_o   <= zeros;
     end
     below_q   <= shifted[Width-2-:17];
-    rest_q    <= below_q[8:0];
-    entry_q   <= table_rom[below_q[16:9]];
-    product_q <= 21'(slope) * 21'($signed({1'b0, rest_q}));
-    base_q    <= entry_q[28:11];
-    line_q    <= 28'($signed({1'b0, base_q, 9'b0})) + 28'(product_q);
+    rest_q    <= below_q[10:0];
+    entry_q   <= table_rom[below_q[16:11]];
+    product_q <= 25'(slope) * 25'($signed({1'b0, rest_q}));
+    base_q    <= entry_q[30:13];
+    line_q    <= 30'($signed({1'b0, base_q, 11'b0})) + 30'(product_q);
   end
   logic unused_bits;
-  assign unused_bits = ^{shifted, line_q[27], line_q[8:0]};
+  assign unused_bits = ^{shifted, line_q[29], line_q[10:0]};
 endmodule

@@ -4,11 +4,11 @@
 //           1 residual-systematic, one lane: mote_residual_systematic    2 roulette, one lane: mote_roulette
 //   uniform numbers of 24 bits: a word a step, for roulette a word a child
 //
-// formats  weights: unsigned, with the scale that they were made at; parent_o: lane l has child Lanes k + l
+// formats  weights and their scales: mote_weight's, short_i for schemes 0 and 1; parent_o: lane l has child Lanes k + l
 // range    as mote_offspring; a run's first weight comes after starts_i. Schemes 1 and 2 draw no children unless more_i says,
 //          a cycle after last_i, that a step follows
-// timing   the first parents are there 13 + log2 Lanes cycles (with 8 lanes one more) after last_i, or when the first row with
-//          children is reached, by other schemes later; total_i stands 1 + log2 Lanes cycles after last_i
+// timing   the first parents are there 13 + 2 log2 Lanes cycles after last_i, or when the first row with children is reached, by
+//          other schemes later; total_i stands 1 + log2 Lanes cycles after last_i
 // golden   mote/hardware/filters/resampler.hpp
 module mote_resample #(
     parameter int unsigned Lanes      = 1,
@@ -27,7 +27,9 @@ module mote_resample #(
     // weights, slot after slot
     input  logic                         write_i,
     input  logic                         last_i,
+    input  logic        [1:0]            rise_i,
     input  logic [Lanes*Width-1:0]       weight_i,
+    input  logic [Lanes*18-1:0]          short_i,
     input  logic signed [ScaleWidth-1:0] scale_i,
     input  logic        [SumWidth-1:0]   total_i,
     input  logic                         more_i,    // a step follows
@@ -45,11 +47,12 @@ module mote_resample #(
 
   if (Scheme == 0) begin : gen_systematic
     localparam int unsigned RowWidth = At - $clog2(2 * Lanes);
-    logic row_valid, row_pop, unused_more;
+    logic row_valid, row_pop, unused_more, unused_weight;
     logic [RowWidth-1:0] row;
     logic [2*Lanes*(At+1)-1:0] ends;
     assign draws = total_valid;
     assign unused_more = more_i;
+    assign unused_weight = ^{weight_i, scale_i[ScaleWidth-1:3]};
 
     // Rows under way when a run ends come in until the next one's first weight.
     logic drops, drops_q;
@@ -58,14 +61,15 @@ module mote_resample #(
       if (!rst_ni) drops_q <= 1'b0;
       else drops_q <= drops;
     end
-    mote_offspring #(.Lanes(Lanes), .At(At), .Width(Width), .ScaleWidth(ScaleWidth)) u_offspring (
+    mote_offspring #(.Lanes(Lanes), .At(At), .Width(Width)) u_offspring (
         .clk_i, .rst_ni,
         .drop_i(drops),
         .n_i,
         .write_i,
         .last_i,
-        .weight_i,
-        .scale_i,
+        .short_i,
+        .rise_i,
+        .scale_i(scale_i[2:0]),
         .total_valid_i(total_valid),
         .total_i,
         .uniform_i(word[31:8]),
@@ -84,15 +88,17 @@ module mote_resample #(
         .ready_i,
         .parent_o);
   end else if (Scheme == 1) begin : gen_residual
-    logic unused_starts;
+    logic unused_starts, unused_weight;
     assign unused_starts = starts_i;
+    assign unused_weight = ^{weight_i, scale_i[ScaleWidth-1:3]};
     assign draws = total_valid;
-    mote_residual_systematic #(.At(At), .Width(Width), .ScaleWidth(ScaleWidth)) u_residual (
-        .clk_i, .rst_ni, .n_i, .write_i, .last_i, .weight_i, .scale_i, .total_valid_i(total_valid), .total_i,
+    mote_residual_systematic #(.At(At), .Width(Width)) u_residual (
+        .clk_i, .rst_ni, .n_i, .write_i, .last_i, .short_i, .rise_i, .scale_i(scale_i[2:0]), .total_valid_i(total_valid), .total_i,
         .uniform_i(word[31:8]), .more_i, .valid_o, .ready_i, .parent_o);
   end else begin : gen_roulette
-    logic unused_starts;
+    logic unused_starts, unused_short;
     assign unused_starts = starts_i;
+    assign unused_short = ^{short_i, rise_i};
     mote_roulette #(.At(At), .Width(Width), .ScaleWidth(ScaleWidth)) u_roulette (
         .clk_i, .rst_ni, .n_i, .write_i, .last_i, .weight_i, .scale_i, .total_valid_i(total_valid), .total_i, .more_i,
         .draw_o(draws), .uniform_i(word[31:8]), .valid_o, .ready_i, .parent_o);

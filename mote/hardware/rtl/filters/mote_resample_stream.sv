@@ -57,6 +57,7 @@ module mote_resample_stream #(
   // ---- weights and their sum at the last scale
   logic [1:0] rise;
   logic [Width-1:0] weight;
+  logic [17:0] weight_short;
   logic [SumWidth-1:0] sum_q;
   logic signed [ScaleWidth-1:0] scale;
   mote_weight #(.LogWidth(LogWidth), .Width(Width), .Table(Exp2Table)) u_weight (
@@ -67,6 +68,7 @@ module mote_resample_stream #(
       .valid_o(kept_valid),
       .rise_o(rise),
       .weight_o(weight),
+      .short_o(weight_short),
       .scale_o(scale));
   always_ff @(posedge clk_i) begin
     log_q   <= log_weight_i;
@@ -87,7 +89,9 @@ module mote_resample_stream #(
       .n_i,
       .write_i(kept_valid),
       .last_i(kept_last),
+      .rise_i(rise),
       .weight_i(weight),
+      .short_i(weight_short),
       .scale_i(scale),
       .total_i(sum_q),
       .more_i(1'b1),

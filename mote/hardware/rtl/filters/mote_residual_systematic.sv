@@ -1,13 +1,13 @@
 // Residual-systematic resampling: a weight a cycle, how many children it has, and what is left for the next.
 //
 //   x_i = w_i q + v_i,  n_i = floor(x_i),  v_(i+1) = x_i - n_i;   q = N / T,  T = sum w,  v_0 ~ U[0, 1) of 24 bits
-//   w_i as Width bits of T, of which all but 17 are carried to the next weight; the last particle has the children that are left
+//   w_i as Width bits of T (mote_share), of which all but 17 are carried to the next weight; the last particle has the children
+//   that are left
 //
 // These are mote_offspring's children: n_0 + ... + n_i = floor(C_i q + v_0). N / T is a factor (mote_reciprocal), never too
-// large. Weights are stored with the scale that they were made at and lowered to the last one's when they are read. No
-// child is drawn when no step follows.
+// large. No child is drawn when no step follows.
 //
-// formats  weights: unsigned
+// formats  short_i, rise_i, scale_i: mote_weight's, of the scale its 3 lowest bits
 // range    1 <= n_i <= 2^At, At >= 6
 // timing   weights are read from the cycle after total_valid_i on, which comes a cycle after the last weight; a particle's
 //          first child shows 10 cycles after it is read, one child a cycle. A queue of Parents lets it run ahead
@@ -16,7 +16,6 @@
 module mote_residual_systematic #(
     parameter int unsigned At         = 10,
     parameter int unsigned Width      = 24,
-    parameter int unsigned ScaleWidth = 12,
     parameter int unsigned Parents    = 128,
     localparam int unsigned SumWidth  = Width + At
 ) (
@@ -26,8 +25,9 @@ module mote_residual_systematic #(
     // weights, slot after slot
     input  logic                         write_i,
     input  logic                         last_i,
-    input  logic        [Width-1:0]      weight_i,
-    input  logic signed [ScaleWidth-1:0] scale_i,
+    input  logic        [17:0]           short_i,
+    input  logic        [1:0]            rise_i,
+    input  logic        [2:0]            scale_i,
     // the end of a step
     input  logic                         total_valid_i,
     input  logic        [SumWidth-1:0]   total_i,
@@ -39,11 +39,9 @@ module mote_residual_systematic #(
     output logic        [At-1:0]         parent_o
 );
   localparam int unsigned Latency = 9;               // from reading a weight to its children
-  localparam int unsigned WordWidth = Width + ScaleWidth;
   localparam int unsigned Drop = At - 6;             // bits of N times the reciprocal that are left out
   localparam int unsigned Frac = 34 - Drop;          // fraction bits of w q
   localparam int unsigned Rest = Width - 17;         // bits of a weight that are carried to the next
-  localparam int unsigned Fraction = 16;             // that a lowered weight keeps, for the total's leading zeros
   localparam int unsigned RoomWidth = $clog2(Parents) + 1;
   localparam int unsigned ZerosWidth = $clog2(SumWidth);
   typedef logic [At:0] count_t;
@@ -51,7 +49,6 @@ module mote_residual_systematic #(
   // ---- memory of weights, two banks
   logic [At-1:0] written_q;
   logic bank_q;
-  logic signed [ScaleWidth-1:0] last_scale_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       written_q <= '0;
@@ -61,7 +58,6 @@ module mote_residual_systematic #(
       bank_q    <= bank_q ^ last_i;
     end
   end
-  always_ff @(posedge clk_i) if (last_i) last_scale_q <= scale_i;
 
   // ---- reading, as long as the queue will have room
   logic reads, last_read, pop, left_out;
@@ -84,12 +80,12 @@ module mote_residual_systematic #(
     if (total_valid_i) slot_q <= '0;
     else if (reads) slot_q <= slot_q + At'(1);
   end
-  logic [WordWidth-1:0] word;
-  mote_ram #(.Width(WordWidth), .Words(2 << At)) u_weights (
+  logic [17:0] word;
+  mote_ram #(.Width(18), .Words(2 << At)) u_weights (
       .clk_i,
       .write_i,
       .write_at_i({bank_q, written_q}),
-      .write_word_i({scale_i, weight_i}),
+      .write_word_i(short_i),
       .read_at_i({~bank_q, slot_q}),
       .read_word_o(word));
 
@@ -108,25 +104,25 @@ module mote_residual_systematic #(
   assign unused_product = ^product_n_q;
 
   // ---- shares of T: what is cut off goes to the next weight
-  logic [ScaleWidth-1:0] by;
-  logic [Width+Fraction-1:0] lowered_q;
-  logic [SumWidth+Fraction-1:0] coarse;
-  logic [SumWidth-1:0] coarse_q, fine;
-  logic [Width-1:0] fine_q, sum;
+  logic [At-1:0] faint_before;
+  logic [2:0] level;
+  logic [5:0] by;
+  logic [6:0] mask;
+  logic faint;
+  logic [Width-1:0] share, sum;
   logic [Rest-1:0] rest_q;
   logic [16:0] share_q;
-  logic share_valid, unused_cut;
+  logic share_valid;
+  mote_scales #(.At(At), .SlotWidth(At), .ZerosWidth(ZerosWidth)) u_scales (
+      .clk_i, .write_i, .last_i, .slot_i(written_q), .rise_i, .scale_i, .zeros_i(zeros),
+      .faint_before_o(faint_before), .level_o(level), .by_o(by), .mask_o(mask));
+  mote_delay #(.Width(1), .Depth(2)) u_faint (.clk_i, .d_i(slot_q < faint_before), .d_o(faint));
+  mote_share #(.Width(Width)) u_share (
+      .clk_i, .short_i(word), .faint_i(faint), .by_i(by), .level_i(level), .mask_i(mask), .share_o(share));
   mote_valid #(.Depth(5)) u_share_valid (.clk_i, .rst_ni, .valid_i(reads), .valid_o(share_valid));
-  assign by = last_scale_q - $signed(word[WordWidth-1:Width]);
-  assign coarse = (SumWidth + Fraction)'(lowered_q) << {zeros[ZerosWidth-1:3], 3'b0};
-  assign fine = coarse_q << zeros[2:0];
-  assign sum = fine_q + Width'(rest_q);
-  assign unused_cut = ^{coarse[Fraction-1:0], fine[At-1:0]};
+  assign sum = share + Width'(rest_q);
   always_ff @(posedge clk_i) begin
-    lowered_q <= by > ScaleWidth'(2) ? '0 : {word[Width-1:0], {Fraction{1'b0}}} >> {by[1:0], 3'b0};
-    coarse_q  <= coarse[SumWidth+Fraction-1:Fraction];
-    fine_q    <= fine[SumWidth-1:At];
-    share_q   <= sum[Width-1:Rest];
+    share_q <= sum[Width-1:Rest];
     if (total_valid_i) rest_q <= '0;
     else if (share_valid) rest_q <= sum[Rest-1:0];
   end

@@ -5,13 +5,13 @@
 //   mean = sum w x' / sum w, before resampling
 //
 // Lane l has the children Lanes k + l (a Scheme of mote_resample).
-// The arithmetic of a model is outside, as for mote_imh. t_o and obs_o stand from 3 cycles before the first state of a
+// The arithmetic of a model is outside, as for chains. t_o and obs_o stand from 3 cycles before the first state of a
 // step reaches propose until its last leaves weigh. At t = 1 the parent's state is undefined.
 //
 // formats  states: Dims signed words of ValueWidth bits; log weights: signed, octaves, 10 fraction bits
 // range    Lanes 1, 2, 4 or 8; n_i a multiple of it, from Lanes to 2^At; At >= 6. Registers are read at start_i
 // timing   a particle a cycle and lane, as long as there are parents; a step's first are there 16 cycles (with several lanes
-//          17 + log2 Lanes, with 8 one more) after its last state left weigh, or when its first row with children is
+//          17 + 2 log2 Lanes) after its last state left weigh, or when its first row with children is
 //          reached. The golden model counts cycles exactly
 // golden   mote/hardware/filters/sisr.hpp
 // source   FPGA (merged loops, dataflow); Kitagawa 1996
@@ -152,6 +152,7 @@ module mote_sisr #(
   logic kept_last;
   logic [1:0] weight_rise;
   logic [Lanes*WeightWidth-1:0] weight;
+  logic [Lanes*18-1:0] weight_short;
   logic signed [ScaleWidth-1:0] scale;
   mote_weight #(.Lanes(Lanes), .LogWidth(LogWidth), .Width(WeightWidth), .Table(Exp2Table)) u_weight (
       .clk_i, .rst_ni,
@@ -161,6 +162,7 @@ module mote_sisr #(
       .valid_o(kept_valid_o),
       .rise_o(weight_rise),
       .weight_o(weight),
+      .short_o(weight_short),
       .scale_o(scale));
   assign kept_slot_o = slot_q;
   mote_valid #(.Depth(WeightLatency)) u_kept_last (.clk_i, .rst_ni, .valid_i(weighed_last), .valid_o(kept_last));
@@ -185,7 +187,9 @@ module mote_sisr #(
       .n_i(n_q),
       .write_i(kept_valid_o),
       .last_i(kept_last),
+      .rise_i(weight_rise),
       .weight_i(weight),
+      .short_i(weight_short),
       .scale_i(scale),
       .total_i(total),
       .more_i(estimates_left_q != '0),

@@ -176,6 +176,7 @@ module mote_sisr_plain #(
   logic weight_valid, log_first, weighed_last;
   logic [1:0] weight_rise;
   logic [WeightWidth-1:0] weight;
+  logic [17:0] weight_short;
   logic signed [ScaleWidth-1:0] scale;
   logic [SumWidth-1:0] total;
   count_t weighed_q, summed_q;
@@ -197,6 +198,7 @@ module mote_sisr_plain #(
       .valid_o(weight_valid),
       .rise_o(weight_rise),
       .weight_o(weight),
+      .short_o(weight_short),
       .scale_o(scale));
   mote_delay #(.Width(StateWidth), .Depth(3)) u_summed_state (.clk_i, .d_i(logged_state), .d_o(summed_state));
 
@@ -211,7 +213,9 @@ module mote_sisr_plain #(
       .n_i(n_q),
       .write_i(weight_valid),
       .last_i(weight_last),
+      .rise_i(weight_rise),
       .weight_i(weight),
+      .short_i(weight_short),
       .scale_i(scale),
       .total_i(total),
       .more_i(estimates_left_q != '0),

@@ -3,6 +3,8 @@
 //
 //   scale(n)  = max(scale(n - 1), floor(lw / 8) + 1 of every lane), quanta of 8 octaves; first_i begins anew
 //   weight_o  = floor(2^(lw - 8 scale) 2^Width), 0 from 3 quanta below the scale on
+//   short_o   = {floor(lw) mod 64, 12 bits of the mantissa behind its leading one}: the same weight to be kept (mote_share);
+//               what is nothing stands 3 quanta below the scale
 //   rise_o    = scale(n) - scale(n - 1), at most 3; 3 for the first: nothing before it counts
 //
 // So no pass for the maximum is needed, and an observation far from every particle still tells them apart. Who adds
@@ -10,7 +12,7 @@
 // 2^(Width - 8).
 //
 // formats  log_weight_i: signed, LogWidth bits, 10 fraction bits, octaves; weight_o: unsigned, below 2^Width
-// error    2^-15 of the weight by the table, and 2^-Width of the scale by truncation
+// error    2^-13 of the weight by the table, and 2^-Width of the scale by truncation
 // timing   latency 3, with several lanes 4; initiation interval 1. Log weights come from registers
 // golden   mote/hardware/filters/weights.hpp
 module mote_weight #(
@@ -29,6 +31,7 @@ module mote_weight #(
     output logic                         valid_o,
     output logic        [1:0]            rise_o,
     output logic [Lanes*Width-1:0]       weight_o,
+    output logic [Lanes*18-1:0]          short_o,
     output logic signed [ScaleWidth-1:0] scale_o
 );
   localparam int unsigned Before = Lanes > 1 ? 1 : 0;  // the stage that looks for a row's greatest
@@ -38,7 +41,7 @@ module mote_weight #(
     limited = difference > ScaleWidth'(3) ? 2'd3 : difference[1:0];
   endfunction
 
-  logic [15:0] table_rom[1<<Frac];
+  logic [11:0] table_rom[1<<Frac];
   initial $readmemh(Table, table_rom);
 
   // The floors of lw / 8, one below the scale that each weight asks for, and the greatest of them.
@@ -78,7 +81,7 @@ module mote_weight #(
     scale_t      floor_q;
     logic [2:0]  fine_q, fine2_q;
     logic [1:0]  coarse2_q;
-    logic [15:0] power_q, power2_q;
+    logic [11:0] power_q, power2_q;
     assign log_weight = log_weights[l*LogWidth+:LogWidth];
     always_ff @(posedge clk_i) begin
       floor_q   <= ScaleWidth'(log_weight >>> (Frac + 3));
@@ -88,7 +91,8 @@ module mote_weight #(
       fine2_q   <= fine_q;
       power2_q  <= power_q;
       weight_o[l*Width+:Width] <= coarse2_q == 2'd3 ? '0
-                                : {power2_q, {(Width - 16) {1'b0}}} >> {coarse2_q, 3'b0} >> fine2_q;
+                                : {1'b1, power2_q, {(Width - 13) {1'b0}}} >> {coarse2_q, 3'b0} >> fine2_q;
+      short_o[l*18+:18] <= {level2_q[2:0] - 3'(coarse2_q), ~fine2_q, power2_q};
     end
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
