@@ -1,6 +1,7 @@
 // `mote design explore` at full length: its pick against a sweep of all candidates.
 
 #include <algorithm>
+#include <tuple>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -49,7 +50,7 @@ TEST(ExploreNightly, EstimatesCircuitsByTheirParts) {
   const Json found = explored(scratch,
                               "--target fpga:xc7a100t -n 256,1000 --more-bits 0 --workers 4 --first-runs 1 --runs 1 "
                               "--recordings 1 --steps 10");
-  for (const char* words : {"--arch imh -n 1000", "--arch sisr -n 1000", "--arch sisr -n 256",
+  for (const char* words : {"--arch imh --overlap -n 1000", "--arch sisr -n 1000", "--arch sisr -n 256",
                             "--arch imh-parallel --overlap -n 1000 --lanes 4", "--arch sisr-lanes -n 1000 --lanes 4",
                             "--arch groups -n 1000 --lanes 4"}) {
     const Json& estimate = of(found, {{"words", words}});

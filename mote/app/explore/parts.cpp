@@ -28,9 +28,10 @@ std::string name_of_filter(const hardware::Machine& machine) {
   return name;
 }
 
-/// Particles a lane that memory blocks are made for: of 512 words, two sets.
+/// Particles a lane that memory blocks are made for: two sets of them fill a block of 1024 words; for fewer there is
+/// one all the same.
 double deep(std::size_t particles, unsigned lanes) {
-  constexpr double kLeast = 256;
+  constexpr double kLeast = 512;
   return std::max(kLeast, static_cast<double>(particles) / lanes);
 }
 

@@ -16,7 +16,7 @@ struct Anchor {
 
 /// The cost of a machine by hardware::cost_of_parts(); `pipelines` names what its pipelines are. Its filter is the
 /// anchor's: look-up tables and flip-flops hardly depend on N (some 20 a bit of it), memory blocks beside a table a
-/// lane grow with N/lanes from 256 on.
+/// lane grow with N/lanes from 512 on.
 ///
 /// error   Refusal (kOutsideTool) when yosys is missing or fails
 /// cost    5 to 60 s a part that is not remembered

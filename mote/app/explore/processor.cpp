@@ -13,15 +13,24 @@ namespace {
 
 /// Particles from which threads have enough to do (software/threads.hpp).
 constexpr std::size_t kWorthThreads = 32768;
+/// Beyond these a filter that no vectors compute is not tried, unless it is asked for.
+constexpr std::size_t kMostSlow = 16384;
+constexpr std::size_t kTimedSteps = 10;
 
 class Processor final : public Target {
  public:
   Processor(const Space& space, const Recording& timed) : space_(space), timed_(timed) {
+    timed_.steps.resize(std::min(timed_.steps.size(), kTimedSteps));
     std::vector<Words> all;
     for (const std::string& kind : filters_of(space_))
       for (const std::size_t n : particles())
         for (const char* precision : {"double", "float"})
           for (const std::size_t threads : threads_for(n)) all.push_back(words_of(kind, n, precision, threads));
+    if (space_.particles.empty())
+      std::erase_if(all, [](const Words& words) {
+        const Plan plan = plan_of(words);
+        return plan.particles > kMostSlow && !simd_has(plan);
+      });
     candidates_ = accepted(all, [&](const Words& words) { make(plan_of(words)); });
   }
 
@@ -57,7 +66,7 @@ class Processor final : public Target {
     return {1, cores()};
   }
   std::unique_ptr<Filter> make(const Plan& plan) const { return space_.catalogue_model->filter(plan, space_.where); }
-  Plan plan_of(const Words& words) const { return plan_from(arguments_from("mote run", plan_options(), words)); }
+  static Plan plan_of(const Words& words) { return plan_from(arguments_from("mote run", plan_options(), words)); }
 
   static Words words_of(const std::string& kind, std::size_t n, const std::string& precision, std::size_t threads) {
     Words words = words_in(kind);
@@ -74,7 +83,7 @@ class Processor final : public Target {
     constexpr int kRounds = 9;
     double quickest = kInfinity;
     double spent = 0;
-    for (int round = 0; round < kRounds && (round < 2 || spent < kEnough); ++round) {
+    for (int round = 0; round < kRounds && (round < 1 || spent < kEnough); ++round) {
       double seconds = 0;
       std::size_t steps = 0;
       while (seconds < kRound) {

@@ -50,8 +50,7 @@ struct PartCost {
 PartCost part_cost(const Circuit& circuit);
 
 /// What a machine takes by its parts: the sum of their areas, pipelines once a lane, and the slowest of their paths; on
-/// xc7. Of the growth model's filters within a tenth of cost_of() (docs/design.md); what is shared, or cut short, where
-/// parts meet is not seen.
+/// xc7. What is shared, or cut short, where parts meet is not seen.
 Cost cost_of_parts(const Machine& machine, const PartCost& propose, const PartCost& weigh, const PartCost& filter);
 
 /// Power of a 7-series device that is busy all the time: an estimate, not a measurement.
