@@ -89,6 +89,8 @@ Command design_measure_command();
 Command design_optimise_command();
 Command analog_command();
 Command analog_characterise_command();
+Command analog_run_command();
+Command analog_power_command();
 Command bench_command();
 Command reproduce_command();
 
