@@ -121,17 +121,14 @@ double MixedArithmetic::transferred(double angle_rad) const {
 }
 
 double MixedArithmetic::crossing(Id id, double value) {
-  if (against_arctan_[id]) {
-    value = numbers::wrap(value);
-    if (calibration_ == Calibration::kTransfer) {
-      if (value != last_angle_) {
-        last_transferred_ = transferred(value);
-        last_angle_ = value;
-      }
-      value = last_transferred_;
-    }
-  }
-  return method_ == Method::kWeights ? angle_dac_(value, normal_for(angle_dac_)) : value;
+  if (value == last_crossing_ && id == last_crossed_) return last_crossed_value_;
+  double crossed = against_arctan_[id] ? numbers::wrap(value) : value;
+  if (against_arctan_[id] && calibration_ == Calibration::kTransfer) crossed = transferred(crossed);
+  if (method_ == Method::kWeights) crossed = angle_dac_(crossed, normal_for(angle_dac_));
+  if (method_ == Method::kWeights && angle_dac_.noisy()) return crossed;
+  last_crossing_ = value;
+  last_crossed_ = id;
+  return last_crossed_value_ = crossed;
 }
 
 }  // namespace mote::analog

@@ -57,7 +57,8 @@ class MixedArithmetic {
   double clip_, comparator_noise_, divider_gain_ = 1;
   Converter quotient_dac_, angle_dac_, input_dac_, angle_adc_, weight_adc_;
   Draw<double>* draw_ = nullptr;
-  double last_angle_ = kNaN, last_transferred_ = 0;  ///< a row's measurement, the same for all particles
+  graph::Id last_crossed_ = 0;  ///< where a row's measurement crossed last, the same for all particles
+  double last_crossing_ = kNaN, last_crossed_value_ = 0;
 };
 
 }  // namespace mote::analog

@@ -6,7 +6,7 @@
 namespace mote::analog {
 
 ConverterSheet tlc5615() { return {"TLC5615", 10, 1, 0.5, 0, 75e3, 0.75e-3}; }
-ConverterSheet ads7830() { return {"ADS7830", 8, 0.5, 0.5, 0.1, 70e3, 0.18e-3}; }
+ConverterSheet ads7830() { return {"ADS7830", 8, 0.5, 0.5, 0, 70e3, 0.18e-3}; }
 
 Converter::Converter(const ConverterSheet& sheet, Direction direction, double low, double high, std::uint64_t seed,
                      std::uint32_t number)

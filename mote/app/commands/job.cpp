@@ -86,9 +86,12 @@ RunRecord run_filter(Filter& filter, const Job& job, const Plan& plan, const Run
   return record;
 }
 
-std::string report_for(const Job& job, const RunRecord& record, const Summary& summary) {
-  return report::html(
-      report::run_page(record, summary, job.recording, job.truth ? &*job.truth : nullptr, job.data_path, job.command));
+std::string report_for(const Job& job, const RunRecord& record, const Summary& summary,
+                       const std::vector<report::Fact>& facts) {
+  report::Page page =
+      report::run_page(record, summary, job.recording, job.truth ? &*job.truth : nullptr, job.data_path, job.command);
+  page.facts.insert(page.facts.end(), facts.begin(), facts.end());
+  return report::html(page);
 }
 
 }  // namespace mote

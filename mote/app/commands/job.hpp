@@ -7,6 +7,7 @@
 #include "mote/app/catalogue/catalogue.hpp"
 #include "mote/engine/recording.hpp"
 #include "mote/engine/run.hpp"
+#include "mote/report/page.hpp"
 
 namespace mote {
 
@@ -37,7 +38,8 @@ RunRecord run_job(const Job& job, const Plan& plan, const RunRequest& request, c
 /// The same with a filter that has been made of the plan.
 RunRecord run_filter(Filter& filter, const Job& job, const Plan& plan, const RunRequest& request);
 
-/// The report page of a run as HTML.
-std::string report_for(const Job& job, const RunRecord& record, const Summary& summary);
+/// The report page of a run as HTML; `facts` are shown after the run's own.
+std::string report_for(const Job& job, const RunRecord& record, const Summary& summary,
+                       const std::vector<report::Fact>& facts = {});
 
 }  // namespace mote

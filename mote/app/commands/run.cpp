@@ -66,6 +66,7 @@ struct Prepared {
   std::optional<CheckpointFile> checkpoint;
   std::optional<Budget> budget;
   ParticleCounts counts;  // that a run with a budget had
+  OtherMachine machine;   ///< without a filter: none
 };
 
 void open_outputs(Prepared& run, const Arguments& arguments) {
@@ -142,9 +143,10 @@ void publish(Prepared& run, RunRecord& record) {
   if (run.summary != nullptr) {
     nlohmann::json json = summary_json(record, summary);
     if (run.budget) json["budget"] = budget_json(*run.budget, run.counts);
+    json.update(run.machine.summary);
     run.summary->write(json.dump(2) + "\n");
   }
-  if (run.report != nullptr) run.report->write(report_for(run.job, record, summary));
+  if (run.report != nullptr) run.report->write(report_for(run.job, record, summary, run.machine.facts));
   run.outputs.commit();
   if (run.checkpoint) run.checkpoint->remove();
   if (run.outputs.on_standard_output()) return;
@@ -169,19 +171,24 @@ void together(Team& team, const std::function<void()>& work) {
 
 }  // namespace
 
-ExitCode run_alone(const Arguments& arguments) {
+ExitCode run_alone(const Arguments& arguments, const MachineMaker& make) {
   const std::atomic<bool>& stop = stop_flag();  // from here on, also while files are read
   Prepared run;
   prepare(run, arguments, nullptr, true);
   run.request.stop = &stop;
   if (run.checkpoint) run.request.checkpoint = &*run.checkpoint;
+  if (make) run.machine = make(run.job, run.plan);
   RunRecord record;
   {
     Progress progress("steps");
     run.request.progress = [&](std::size_t done, std::size_t all) { progress.update(done, all); };
-    record = run.budget ? run_within(*run.budget, run, arguments.where())
-                        : run_job(run.job, run.plan, run.request, arguments.where());
+    if (make)
+      record = run_filter(*run.machine.filter, run.job, run.plan, run.request);
+    else
+      record = run.budget ? run_within(*run.budget, run, arguments.where())
+                          : run_job(run.job, run.plan, run.request, arguments.where());
   }
+  if (make) record.engine = run.machine.engine;
   check_whole(run, record, arguments);
   publish(run, record);
   return ExitCode::kDone;
@@ -213,8 +220,8 @@ ExitCode run_in_team(const Arguments& arguments, Team& team) {
   return ExitCode::kDone;
 }
 
-Command run_command(std::function<ExitCode(const Arguments&)> team) {
-  std::vector<OptionSpec> options{
+std::vector<OptionSpec> run_file_options() {
+  return {
       {"--data", "FILE", "", "recording as CSV: t, then the model's columns; must be given", "Data"},
       {"--truth", "FILE", "", "true states as CSV, to score against [none]", "Data"},
       {"--set", "NAME=VALUE", "", "set a parameter of the model; may be repeated [its defaults]", "Data", true},
@@ -227,6 +234,10 @@ Command run_command(std::function<ExitCode(const Arguments&)> team) {
        "Output", true},
       {"--dump-particles", "FILE", "", "weighted particles of every step as CSV [none]", "Output"},
   };
+}
+
+Command run_command(std::function<ExitCode(const Arguments&)> team) {
+  std::vector<OptionSpec> options = run_file_options();
   for (OptionSpec& option : plan_options()) options.push_back(std::move(option));
   for (OptionSpec& option : budget_options()) options.push_back(std::move(option));
   for (OptionSpec& option : checkpoint_options()) options.push_back(std::move(option));

@@ -1,8 +1,17 @@
 #pragma once
 /// `mote run`, alone or on a rank of a team.
 
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
 #include "mote/app/commands/command.hpp"
+#include "mote/app/commands/job.hpp"
 #include "mote/engine/team.hpp"
+#include "mote/report/page.hpp"
 
 namespace mote {
 
@@ -13,8 +22,20 @@ class CommonRefusal : public Refusal {
   CommonRefusal(const Refusal& refusal, bool said) : Refusal(refusal.code(), said ? refusal.what() : "") {}
 };
 
-/// Runs the command in this process.
-ExitCode run_alone(const Arguments& arguments);
+/// What filters a job in place of the engines.
+struct OtherMachine {
+  std::unique_ptr<Filter> filter;
+  std::string engine;               ///< its name, for outputs
+  std::vector<report::Fact> facts;  ///< for the report
+  nlohmann::json summary;           ///< more members of the summary
+};
+using MachineMaker = std::function<OtherMachine(const Job& job, const Plan& plan)>;
+
+/// Runs the command in this process; with `make`, on another machine.
+ExitCode run_alone(const Arguments& arguments, const MachineMaker& make = {});
+
+/// Options of files: what a run reads and writes.
+std::vector<OptionSpec> run_file_options();
 
 /// Runs the command on a rank of a team. Every rank reads the data, rank 0 alone writes.
 ///

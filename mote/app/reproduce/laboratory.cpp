@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "mote/analog/spice.hpp"
+#include "mote/app/analog/mixed_run.hpp"
 #include "mote/app/commands/plan_options.hpp"
 #include "mote/app/compare/contender.hpp"
 #include "mote/app/compare/statistics.hpp"
@@ -85,6 +87,10 @@ Laboratory::Laboratory(Item item) : item_(std::move(item)) {
     analogs_ = as_bad_data([&] { return std::make_unique<Analogs>(item_); });
     return;
   }
+  if (item_.power) {
+    budgets_ = as_bad_data([&] { return std::make_unique<Budgets>(item_); });
+    return;
+  }
   const Source& from = item_.recording;
   header_ = from.simulated() ? frame_header(from.columns) : read_table(from.observations).header;
   source_ = model_with(from.settings, from.where);
@@ -112,6 +118,13 @@ Laboratory::Bench Laboratory::bench_for(const Run& run) const {
   bench.job.model = model_with(merged(item_.recording.settings, run.settings), run.where);
   if (run.circuit) {
     bench.circuit = as_bad_data([&] { return std::make_shared<CircuitBench>(run, bench.job); });
+    return bench;
+  }
+  if (run.analog) {
+    as_bad_data([&] {
+      bench.analog = arguments_from(run.where, mixed_run_options(), run.options);
+      return bench.plan = plan_from(*bench.analog);
+    });
     return bench;
   }
   as_bad_data([&] {
@@ -155,6 +168,11 @@ void Laboratory::check_comparisons() const {
 std::string Laboratory::missing() const {
   if (clusters_) return clusters_->missing();
   if (analogs_) return analogs_->missing();
+  if (std::any_of(item_.runs.begin(), item_.runs.end(), [](const Run& run) { return run.analog; })) try {
+      analog::Spice::loaded();
+    } catch (const Refusal& refusal) {
+      return refusal.what();
+    }
   const std::string clip = cinema_ ? cinema_->missing() : "";
   return clip.empty() ? "" : fmt::format("there is no {}. Set MOTE_DATA to the folder with clips/.", clip);
 }
@@ -164,6 +182,7 @@ std::size_t Laboratory::work() const {
   if (clusters_) return clusters_->work();
   if (designs_) return designs_->work();
   if (analogs_) return analogs_->work();
+  if (budgets_) return budgets_->work();
   std::size_t runs = item_.weights ? 0 : item_.runs.size();
   for (const Comparison& c : item_.comparisons)
     runs += (c.kind == Kind::kNormalisedError ? 1 : c.runs.size()) * static_cast<std::size_t>(c.repeats);
@@ -195,7 +214,16 @@ const RunRecord& Laboratory::record(const std::string& run, std::uint64_t record
   if (bench.circuit) return found->second = bench.circuit->record(bench.job.recording, seed_offset);
   Plan plan = bench.plan;
   plan.seed += seed_offset;
+  if (bench.analog) return found->second = mixed_record(bench, plan);
   return found->second = run_job(bench.job, plan, request_for(bench.job, {}, item_.file), item_.file);
+}
+
+RunRecord Laboratory::mixed_record(Bench& bench, const Plan& plan) const {
+  return as_bad_data([&] {
+    if (!bench.design) bench.design = design_from(*bench.analog, *bench.job.model);
+    const auto filter = mixed_filter(*bench.job.model, plan, *bench.design, bench.analog->where());
+    return run_filter(*filter, bench.job, plan, request_for(bench.job, {}, item_.file));
+  });
 }
 
 std::vector<double> Laboratory::mean_estimates(const RunRecord& record, std::size_t state) {
@@ -249,6 +277,7 @@ std::vector<double> Laboratory::sample(const Comparison& c, std::uint64_t repeat
   if (clusters_) return {clusters_->figure(c, side, ran_)};
   if (designs_) return {designs_->figure(c, side)};
   if (analogs_) return {analogs_->figure(c, side, ran_)};
+  if (budgets_) return {budgets_->figure(c, side)};
   if (c.kind == Kind::kCircuit) {
     const double figure = benches_.at(c.runs[side]).circuit->figure(c, scene(0).recording);
     ran_();
@@ -300,7 +329,8 @@ std::vector<double> Laboratory::sample(const Comparison& c, std::uint64_t repeat
     case Kind::kCircuit:
     case Kind::kDesign:
     case Kind::kAnalog:
-      break;  // of items on weights, clips and clusters, of designs, on analog circuits
+    case Kind::kPower:
+      break;  // of items on weights, clips and clusters, of designs
   }
   return {kNaN};
 }
@@ -449,7 +479,7 @@ std::string Laboratory::missing_tool(const Comparison& c) const {
 Outcome Laboratory::regenerate(const std::function<void()>& ran) {
   ran_ = ran;
   Outcome outcome;
-  if (!item_.weights && !cinema_ && !clusters_ && !designs_ && !analogs_) run_filters(outcome);
+  if (!item_.weights && !cinema_ && !clusters_ && !designs_ && !analogs_ && !budgets_) run_filters(outcome);
   for (const Comparison& comparison : item_.comparisons)
     if (const std::string tool = missing_tool(comparison); !tool.empty()) {
       outcome.left_out.push_back(fmt::format("left out {}: {}", comparison.name, tool));
@@ -461,6 +491,8 @@ Outcome Laboratory::regenerate(const std::function<void()>& ran) {
   if (item_.weights) outcome.tradeoffs = tradeoffs();
   if (cinema_) show_clips(outcome);
   if (clusters_) outcome.sweeps = clusters_->sweeps(ran_);
+  if (budgets_)
+    for (const Figure& figure : item_.figures) outcome.drawn[figure.title] = budgets_->chart(figure);
   if (designs_)
     for (const Figure& figure : item_.figures) outcome.curves[figure.title] = designs_->curves(figure);
   if (analogs_)

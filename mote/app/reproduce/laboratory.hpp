@@ -6,9 +6,11 @@
 #include <memory>
 #include <tuple>
 
+#include "mote/analog/method.hpp"
 #include "mote/app/catalogue/scene.hpp"
 #include "mote/app/commands/job.hpp"
 #include "mote/app/reproduce/analogs.hpp"
+#include "mote/app/reproduce/budgets.hpp"
 #include "mote/app/reproduce/cinema.hpp"
 #include "mote/app/reproduce/circuits.hpp"
 #include "mote/app/reproduce/clusters.hpp"
@@ -86,10 +88,13 @@ class Laboratory {
     Job job;
     Plan plan;
     std::shared_ptr<CircuitBench> circuit = nullptr;  ///< filters instead of the plan
+    std::optional<Arguments> analog;                  ///< of a run by analog parts
+    std::optional<analog::Design> design;             ///< its parts, simulated on first use
   };
   using Level = std::pair<double, std::uint64_t>;  // of ESS, repeat
 
   Bench bench_for(const Run& run) const;
+  RunRecord mixed_record(Bench& bench, const Plan& plan) const;
   std::unique_ptr<CatalogueModel> model_with(const std::vector<std::string>& settings, const std::string& where) const;
   void check_figures() const;
   void check_comparisons() const;
@@ -126,6 +131,7 @@ class Laboratory {
   std::unique_ptr<Clusters> clusters_;                                         // of an item on simulated clusters
   std::unique_ptr<Designs> designs_;                                           // of an item of designs
   std::unique_ptr<Analogs> analogs_;                                           // of an item on analog circuits
+  std::unique_ptr<Budgets> budgets_;                                           // of an item of powers
   std::function<void()> ran_;
 };
 

@@ -30,22 +30,12 @@ std::string tracks_for(const Item& item) {
   return script;
 }
 
-std::string sweeps_for(const Item& item) {
+/// A command for each run of an item that has nothing but options.
+std::string commands_for(const Item& item, const std::string& command, const std::vector<std::string>& common) {
   std::string script;
   for (const Run& run : item.runs) {
-    script += "mote simulate-cluster --stage-parallel";
-    for (const auto& options : {*item.cluster, run.options})
-      for (const std::string& option : options) script += " " + shell_word(option);
-    script += fmt::format(" --json {}-{}.json\n", slug(item.paper + "-" + item.name), slug(run.name));
-  }
-  return script;
-}
-
-std::string designs_for(const Item& item) {
-  std::string script;
-  for (const Run& run : item.runs) {
-    script += "mote design optimise";
-    for (const auto& options : {*item.design, run.options})
+    script += command;
+    for (const auto& options : {common, run.options})
       for (const std::string& option : options) script += " " + shell_word(option);
     script += fmt::format(" --json {}-{}.json\n", slug(item.paper + "-" + item.name), slug(run.name));
   }
@@ -67,8 +57,9 @@ std::string analogs_for(const Item& item) {
 
 std::string script_for(const Item& item) {
   if (item.weights) return "";
-  if (item.cluster) return sweeps_for(item);
-  if (item.design) return designs_for(item);
+  if (item.cluster) return commands_for(item, "mote simulate-cluster --stage-parallel", *item.cluster);
+  if (item.design) return commands_for(item, "mote design optimise", *item.design);
+  if (item.power) return commands_for(item, "mote analog power", *item.power);
   if (item.analog) return analogs_for(item);
   if (item.clip) return item.clip->drawn() ? "" : tracks_for(item);
   const Source& from = item.recording;
@@ -84,8 +75,11 @@ std::string script_for(const Item& item) {
                          set_options(from.settings), data, truth);
   }
   for (const Run& run : item.runs) {
-    script += fmt::format("mote {} {} {} {}{}{}", run.circuit ? "rtl" : "run", from.model,
-                          run.circuit ? "--simulate" : "--data", shell_word(data),
+    script += fmt::format("mote {} {} {} {}{}{}",
+                          run.circuit  ? "rtl"
+                          : run.analog ? "analog run"
+                                       : "run",
+                          from.model, run.circuit ? "--simulate" : "--data", shell_word(data),
                           truth.empty() ? "" : " --truth " + shell_word(truth),
                           set_options(merged(from.settings, run.settings)));
     for (const std::string& option : run.options) script += " " + shell_word(option);

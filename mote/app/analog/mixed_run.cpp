@@ -1,0 +1,137 @@
+#include "mote/app/analog/mixed_run.hpp"
+
+#include <fmt/format.h>
+
+#include "mote/analog/placement.hpp"
+#include "mote/app/analog/circuit_words.hpp"
+#include "mote/app/catalogue/settings.hpp"
+#include "mote/app/commands/plan_options.hpp"
+
+namespace mote {
+namespace {
+
+using analog::Cells;
+using analog::Design;
+
+/// The errors of parts by name, as --part takes them.
+constexpr std::array<std::pair<const char*, double Cells::*>, 9> kParts{
+    {{"divider_gain", &Cells::divider_gain},
+     {"product_gain", &Cells::product_gain},
+     {"memory_error", &Cells::memory_error},
+     {"memory_leak", &Cells::memory_leak},
+     {"source_gain", &Cells::source_gain},
+     {"source_clip", &Cells::source_clip},
+     {"multiplier_gain", &Cells::multiplier_gain},
+     {"squarer_gain", &Cells::squarer_gain},
+     {"comparator_noise", &Cells::comparator_noise}}};
+
+std::string part_words() {
+  std::string words;
+  for (const auto& [name, member] : kParts)
+    words += fmt::format("{}{} [{:g}]", words.empty() ? "" : ", ", name, Cells{}.*member);
+  return words;
+}
+
+Cells cells_from(const Arguments& arguments) {
+  const Settings settings(arguments.where() + ": --part", arguments.list("--part"));
+  Cells cells;
+  std::vector<std::string> names;
+  for (const auto& [name, member] : kParts) {
+    cells.*member = settings.number(name, cells.*member, Range::kNotNegative);
+    names.emplace_back(name);
+  }
+  settings.finish("mixed mode", names);
+  return cells;
+}
+
+/// The circuits that a model has a use for.
+AnalogWords whole(const CatalogueModel& model) {
+  const analog::Wanted has = analog::functions_of(model.recorded());
+  AnalogWords words;
+  if (has.arctan) words.arctan = CircuitWords{analog::Level::kRealistic, 10e-9};
+  if (has.gaussian) words.gaussian = CircuitWords{analog::Level::kRealistic, 0.1e-9};
+  return words;
+}
+
+void set_bits(analog::ConverterSheet& sheet, const Arguments& arguments, const std::string& option) {
+  if (!arguments.given(option)) return;
+  const auto bits = static_cast<int>(arguments.integer(option, 0, analog::kMostBits));
+  if (bits == sheet.bits) return;
+  sheet.name = fmt::format("{} with {} bits", sheet.name, bits);
+  sheet.bits = bits;
+}
+
+}  // namespace
+
+std::vector<OptionSpec> mixed_options() {
+  const std::string group = "Analog parts";
+  return {
+      {"--analog", "LIST", "",
+       "circuits, as arctan=mite:Ia=10n,gaussian=mite:Ia=0.1n; mite or ideal; the rest is digital [all that the model "
+       "has a use for]",
+       group},
+      {"--method", "M", "1",
+       "1 = weights are analog, between DAC and ADC; 2 = all but the choice of ancestors; 3 = IMH without a Gaussian",
+       group},
+      {"--dac-bits", "B", "10", "bits of the DAC, from 0 (none there) to 16; method 1", group},
+      {"--adc-bits", "B", "8", "bits of the ADC, from 0 (none there) to 16; methods 1 and 2", group},
+      {"--calibrate", "HOW", "none",
+       "none; transfer = the measurement goes through the measured arctangent, too; inflate = a Gaussian wider by the "
+       "arctangent's error",
+       group},
+      {"--die", "K", "0", "die whose devices differ as Pelgrom's law says, by number; 0 = the typical one", group},
+      {"--arctan-error", "PERCENT", "100", "scale of the arctangent's error, to ask what a better circuit would do",
+       group},
+      {"--noise", "PERCENT", "100", "scale of the circuits' noise; 0 = steady states, as MIXED simulates them", group},
+      {"--part", "NAME=VALUE", "", "error of other parts, methods 2 and 3; may be repeated: " + part_words(), group,
+       true},
+  };
+}
+
+std::vector<OptionSpec> mixed_run_options() {
+  std::vector<OptionSpec> options = mixed_options();
+  for (OptionSpec& option : plan_options()) options.push_back(std::move(option));
+  return options;
+}
+
+Design design_from(const Arguments& arguments, const CatalogueModel& model) {
+  Design design;
+  design.method = static_cast<analog::Method>(arguments.choice("--method", {"1", "2", "3"}) + 1);
+  design.calibration =
+      static_cast<analog::Calibration>(arguments.choice("--calibrate", {"none", "transfer", "inflate"}));
+  set_bits(design.dac, arguments, "--dac-bits");
+  set_bits(design.adc, arguments, "--adc-bits");
+  design.cells = cells_from(arguments);
+  const auto die = static_cast<std::uint32_t>(arguments.integer("--die", 0, 1'000'000));
+  design.seed = die;
+  const double error = arguments.number("--arctan-error", 0, 10'000) / 100;
+  const double noise = arguments.number("--noise", 0, 10'000) / 100;
+  AnalogWords words =
+      arguments.given("--analog") ? analog_words(arguments.text("--analog"), arguments.where()) : whole(model);
+  if (design.method == analog::Method::kAllButRandom) words.gaussian.reset();
+  const auto made = [&](analog::Function function, const CircuitWords& circuit) {
+    const analog::Behaviour& typical = circuit_behaviour(function, circuit);
+    const analog::Behaviour one = die == 0 ? typical : typical.on_die(design.seed, die);
+    const double of_this = function == analog::Function::kArctan ? error : 1;
+    return of_this == 1 && noise == 1 ? one : analog::scaled(one, of_this, noise);
+  };
+  if (words.arctan) design.arctan = made(analog::Function::kArctan, *words.arctan);
+  if (words.gaussian) design.gaussian = made(analog::Function::kGaussian, *words.gaussian);
+  return design;
+}
+
+std::unique_ptr<Filter> mixed_filter(const CatalogueModel& model, const Plan& plan, const Design& design,
+                                     const std::string& where) {
+  return analog::make_mixed_filter(model.recorded(), plan, design, where);
+}
+
+std::string words_of(const Design& design) {
+  std::string words = fmt::format("Method-{}", static_cast<int>(design.method));
+  for (const auto& circuit : {design.arctan, design.gaussian})
+    if (circuit) words += "; " + circuit->name();
+  if (design.method == analog::Method::kWeights) words += fmt::format("; DAC {} bits", design.dac.bits);
+  if (design.method != analog::Method::kAllButRandom) words += fmt::format("; ADC {} bits", design.adc.bits);
+  return words;
+}
+
+}  // namespace mote
