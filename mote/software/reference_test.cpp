@@ -8,6 +8,7 @@
 #include "mote/model/linear_gaussian.hpp"
 #include "mote/model/local_level.hpp"
 #include "mote/model/ungm.hpp"
+#include "mote/software/engines.hpp"
 
 namespace mote {
 namespace {
@@ -17,7 +18,7 @@ std::vector<double> means(const Plan& plan) {
   Recording recording;
   for (Step t = 1; t <= 5; ++t) recording.steps.push_back({t, {Row<double>::of({1.0 + t})}});
   const Ungm<1> model;
-  const auto filter = make_reference_filter(model, plan, "mote run");
+  const auto filter = reference_filter(model, plan, "mote run");
   RunRequest request;
   request.states = model.states();
   std::vector<double> all;
@@ -69,6 +70,36 @@ TEST(Reference, EveryChoiceOfAPlanReachesTheFilter) {
     }
 }
 
+/// A model that draws more numbers a step than Sobol' points have coordinates.
+struct Spendthrift {
+  template <class S>
+  using State = std::array<S, 1>;
+  std::vector<Quantity> states() const { return {{"x", ""}}; }
+  std::vector<Column> columns() const { return {{"y", ""}}; }
+  template <class S, class D>
+  State<S> initial(D& draw) const {
+    return {draw.normal()};
+  }
+  template <class S, class D>
+  State<S> next(Step, const State<S>& before, D& draw) const {
+    S sum = before[0];
+    for (int i = 0; i < 4000; ++i) sum = sum + draw.normal();
+    return {sum};
+  }
+  template <class S>
+  S log_likelihood(Step, const State<S>&, const Row<S>&) const {
+    return S(0);
+  }
+};
+
+template <class M>
+std::unique_ptr<Filter> filter_of(const M& model, const Plan& plan) {
+  return reference_filter(model, plan, "mote run");
+}
+std::unique_ptr<Filter> filter_of(const Spendthrift& model, const Plan& plan) {
+  return make_reference_filter(model, plan, "mote run");
+}
+
 template <class M>
 std::string refusal(const M& model, FilterKind filter, const std::string& proposal) {
   Plan plan;
@@ -76,7 +107,7 @@ std::string refusal(const M& model, FilterKind filter, const std::string& propos
   plan.proposal = proposal;
   plan.particles = 10;
   try {
-    EXPECT_NE(make_reference_filter(model, plan, "mote run"), nullptr);
+    EXPECT_NE(filter_of(model, plan), nullptr);
   } catch (const Refusal& r) {
     EXPECT_EQ(r.code(), ExitCode::kWrongUse);
     return r.what();
@@ -104,28 +135,6 @@ TEST(Reference, RefusesAProposalWithoutDensity) {
   p.mean = Eigen::VectorXd::Zero(2);
   EXPECT_NE(refusal(LinearGaussian(p), FilterKind::kSisr, "optimal").find("no transition density"), std::string::npos);
 }
-
-/// A model that draws more numbers a step than Sobol' points have coordinates.
-struct Spendthrift {
-  template <class S>
-  using State = std::array<S, 1>;
-  std::vector<Quantity> states() const { return {{"x", ""}}; }
-  std::vector<Column> columns() const { return {{"y", ""}}; }
-  template <class S, class D>
-  State<S> initial(D& draw) const {
-    return {draw.normal()};
-  }
-  template <class S, class D>
-  State<S> next(Step, const State<S>& before, D& draw) const {
-    S sum = before[0];
-    for (int i = 0; i < 4000; ++i) sum = sum + draw.normal();
-    return {sum};
-  }
-  template <class S>
-  S log_likelihood(Step, const State<S>&, const Row<S>&) const {
-    return S(0);
-  }
-};
 
 TEST(Reference, KalmanFiltersAreTheSameForEverySeedAndPrecision) {
   for (const auto filter : {FilterKind::kEkf, FilterKind::kUkf}) {

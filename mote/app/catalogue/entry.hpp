@@ -2,9 +2,9 @@
 /// Makes a catalogue entry of a model: everything the program does with it, instantiated here and nowhere else.
 
 #include "mote/app/catalogue/catalogue.hpp"
-#include "mote/app/catalogue/simd.hpp"
-#include "mote/software/pipeline/ranked.hpp"
-#include "mote/software/reference.hpp"
+#include "mote/engine/cast.hpp"
+#include "mote/software/engines.hpp"
+#include "mote/software/proposals.hpp"
 
 namespace mote {
 
@@ -43,15 +43,15 @@ class CatalogueModelOf final : public CatalogueModel {
     switch (engine_of(plan)) {
       case Engine::kMpi:
         if (plan.team == nullptr) refuse_without_team(where);
-        if (plan.filter == FilterKind::kDistributed) return make_reference_filter(model_, plan, where);
-        if (has_cast(plan)) return make_ranked_filter(model_, plan, where);
+        if (plan.filter == FilterKind::kDistributed) return reference_filter(model_, plan, where);
+        if (has_cast(plan)) return ranked_filter(model_, plan, where);
         [[fallthrough]];
       case Engine::kSimd:
         return simd_filter(model_, plan, where);
       case Engine::kPipeline:
-        return make_pipeline_filter(model_, plan, where);
+        return pipeline_filter(model_, plan, where);
       default:
-        return make_reference_filter(model_, plan, where);
+        return reference_filter(model_, plan, where);
     }
   }
   using CatalogueModel::recorded;

@@ -298,9 +298,10 @@ int run_program(int count, char** words, const std::vector<Command>& commands_kn
       if (error.get_exit_code() == 0) return with_printed(program.exit(error));  // --help, --version
       throw refusal_for(error, asked(), asked() == nullptr ? "mote" : "mote " + asked()->command.name);
     }
-    if (asked() == nullptr)
-      refuse_without_command(program.remaining(), "mote", names, {"--help", "--version"});
-    else if (!asked()->command.run)
+    const std::vector<std::string> before = program.remaining();
+    if (asked() == nullptr || (!before.empty() && !before.front().starts_with("-")))
+      refuse_without_command(before, "mote", names, {"--help", "--version"});
+    if (!asked()->command.run)
       refuse_without_command(asked()->app->remaining(), "mote " + asked()->command.name, parts_of(*asked()),
                              {"--help"});
   } catch (const Refusal& refusal) {

@@ -9,6 +9,7 @@
 #include "mote/model/linear_gaussian.hpp"
 #include "mote/model/local_level.hpp"
 #include "mote/model/ungm.hpp"
+#include "mote/software/engines.hpp"
 
 namespace mote {
 namespace {
@@ -53,24 +54,15 @@ std::string difference(const Told& a, const Told& b) {
 const std::vector<PipelineSize> kSizes{
     {1, 1, 1, 1, 0, {}}, {2, 1, 1, 2, 16, {}}, {1, 3, 2, 3, 64, {}}, {3, 2, 4, 4, 256, {}}, {2, 2, 64, 2, 1024, {}}};
 
-/// The reference engine's filter, of those that the pipeline has: what make_reference_filter() makes of such a plan.
-template <class M>
-std::unique_ptr<Filter> reference_filter(const M& model, const Plan& plan) {
-  return with_proposal(model, plan, "test", [&]<class G>(std::type_identity<G>) {
-    return plan.precision == Precision::kFloat ? pipelined::make<float, G>(model, plan, stage_by_stage())
-                                               : pipelined::make<double, G>(model, plan, stage_by_stage());
-  });
-}
-
 template <class M>
 void expect_the_reference(const M& model, const Plan& plan, const std::string& what,
                           const std::vector<PipelineSize>& sizes = kSizes) {
   const Recording recording = drawn_recording(model, 6);
   const RunRequest request = request_for(model);
-  const auto reference = reference_filter(model, plan);
+  const auto reference = reference_filter(model, plan, "test");
   const Told expected = told(*reference, plan, recording, request);
   for (const PipelineSize& size : sizes) {
-    const auto pipelined = make_pipeline_filter(model, plan, "test", size);
+    const auto pipelined = pipeline_filter(model, plan, "test", size);
     EXPECT_EQ(difference(told(*pipelined, plan, recording, request), expected), "")
         << what << ", Rp = " << size.proposers << ", Rw = " << size.weighers << ", lines " << size.chains
         << ", threads " << size.threads << ", block " << size.block;
@@ -138,9 +130,9 @@ TEST(PipelinedFilter, IsTheReferenceOnLinearModels) {
 TEST(PipelinedFilter, TwinAnotherSeedIsCaught) {
   const Ungm<1> model;
   Plan plan = plan_of(FilterKind::kImh, 100);
-  const auto reference = reference_filter(model, plan);
+  const auto reference = reference_filter(model, plan, "test");
   plan.seed = 4;
-  const auto pipelined = make_pipeline_filter(model, plan, "test");
+  const auto pipelined = pipeline_filter(model, plan, "test");
   EXPECT_NE(difference(told(*pipelined, plan, drawn_recording(model, 6), request_for(model)),
                        told(*reference, plan, drawn_recording(model, 6), request_for(model))),
             "");
@@ -203,8 +195,8 @@ TEST(PipelinedFilter, RecoversFromACollapseAsTheReferenceDoes) {
         plan.on_collapse = what;
         plan.chain.chains = 3;
         plan.chain.start = start;
-        const auto reference = reference_filter(model, plan);
-        const auto pipelined = make_pipeline_filter(model, plan, "test", kSizes[3]);
+        const auto reference = reference_filter(model, plan, "test");
+        const auto pipelined = pipeline_filter(model, plan, "test", kSizes[3]);
         const Told expected = told(*reference, plan, recording, request_for(model));
         EXPECT_TRUE(expected.record.rows[2].report.collapsed);
         EXPECT_EQ(difference(told(*pipelined, plan, recording, request_for(model)), expected), "");
@@ -216,7 +208,7 @@ TEST(PipelinedFilter, StopsAtACollapse) {
   for (const FilterKind filter : kFilters) {
     Plan plan = plan_of(filter, 700);
     plan.on_collapse = OnCollapse::kStop;
-    const auto pipelined = make_pipeline_filter(model, plan, "test", kSizes[3]);
+    const auto pipelined = pipeline_filter(model, plan, "test", kSizes[3]);
     try {
       run(*pipelined, plan, hopeless(model, 1e200), request_for(model));
       ADD_FAILURE() << "went on";
@@ -232,7 +224,7 @@ TEST(PipelinedFilter, IsResumedBitByBit) {
     for (const Precision precision : {Precision::kDouble, Precision::kFloat}) {
       Plan plan = plan_of(filter, 300, precision);
       plan.chain.chains = 2;
-      const auto make = [&] { return make_pipeline_filter(model, plan, "test", kSizes[3]); };
+      const auto make = [&] { return pipeline_filter(model, plan, "test", kSizes[3]); };
       EXPECT_EQ(laws::broken_promise(make, plan, drawn_recording(model, 6), request_for(model)), "");
     }
 }
@@ -244,20 +236,20 @@ TEST(PipelinedFilter, LeavesTheRecordOfItsStages) {
   plan.weighers = 3;
   plan.threads = 2;
   plan.chain.chains = 4;
-  const auto pipelined = make_pipeline_filter(model, plan, "test");
+  const auto pipelined = pipeline_filter(model, plan, "test");
   const RunRecord record = run(*pipelined, plan, drawn_recording(model, 6), request_for(model));
   ASSERT_TRUE(record.stages);
   EXPECT_EQ(record.stages->stages[0].workers.size(), 2U);
   EXPECT_EQ(record.stages->stages[1].workers.size(), 3U);
   EXPECT_EQ(record.stages->stages[2].workers.size(), 4U);
-  const auto reference = reference_filter(model, plan);
+  const auto reference = reference_filter(model, plan, "test");
   EXPECT_FALSE(run(*reference, plan, drawn_recording(model, 6), request_for(model)).stages);
 }
 
 TEST(PipelinedFilter, RefusesAProposalThatTheModelDoesNotHave) {
   Plan plan = plan_of(FilterKind::kSisr, 10);
   plan.proposal = "optimal";
-  EXPECT_THROW(make_pipeline_filter(Ungm<1>{}, plan, "test"), Refusal);
+  EXPECT_THROW(pipeline_filter(Ungm<1>{}, plan, "test"), Refusal);
 }
 
 }  // namespace

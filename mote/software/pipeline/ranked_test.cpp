@@ -10,7 +10,7 @@
 #include "mote/model/bearings.hpp"
 #include "mote/model/local_level.hpp"
 #include "mote/model/ungm.hpp"
-#include "mote/software/reference.hpp"
+#include "mote/software/engines.hpp"
 
 namespace mote {
 namespace {
@@ -28,7 +28,7 @@ std::vector<EstimateRow> on_team(const M& model, Plan plan, const Cast& cast, co
     Plan mine = plan;
     mine.team = &team;
     check(mine, "test");
-    const auto filter = make_ranked_filter(model, mine, "test");
+    const auto filter = ranked_filter(model, mine, "test");
     RunRecord record = run(*filter, mine, recording, request);
     if (team.rank() == 0) rows = std::move(record.rows);
   });
@@ -39,7 +39,7 @@ template <class M>
 std::vector<EstimateRow> by_reference(const M& model, const Plan& plan, const Recording& recording) {
   RunRequest request;
   request.states = model.states();
-  const auto filter = make_reference_filter(model, plan, "test");
+  const auto filter = reference_filter(model, plan, "test");
   return run(*filter, plan, recording, request).rows;
 }
 
@@ -132,7 +132,7 @@ TEST(RankedFilters, CollapseAsTheReference) {
       mine.team = &team;
       RunRequest request;
       request.states = LocalLevel{}.states();
-      const auto filter = make_ranked_filter(LocalLevel{}, mine, "test");
+      const auto filter = ranked_filter(LocalLevel{}, mine, "test");
       try {
         run(*filter, mine, far, request);
       } catch (const Refusal& refusal) {

@@ -10,6 +10,8 @@
 #include "mote/model/linear_gaussian.hpp"
 #include "mote/model/local_level.hpp"
 #include "mote/model/ungm.hpp"
+#include "mote/software/engines.hpp"
+#include "mote/software/simd/here.hpp"
 
 namespace mote {
 namespace {
@@ -93,26 +95,57 @@ std::string text(const Case& c) {
          std::to_string(static_cast<int>(c.options.start));
 }
 
-template <class R, class G, class M>
-double from_reference(const M& model, const std::vector<Row<double>>& rows, const Case& c, double least,
-                      OnCollapse on_collapse = OnCollapse::kStop) {
-  const auto reference = make_auxiliary<R, G>(model, c.particles, 3, c.options, on_collapse);
-  VectorMetropolisFilter<M, R, G> vectors(model, c.particles, 3, c.options, on_collapse, 1);
-  const std::size_t dimensions = model.states().size();
-  return difference(run(vectors, rows, dimensions), run(*reference, rows, dimensions), least);
+Plan plan_of(const Case& c, Precision precision = Precision::kDouble, OnCollapse on_collapse = OnCollapse::kStop) {
+  Plan plan;
+  plan.filter = FilterKind::kAuxiliary;
+  plan.particles = c.particles;
+  plan.seed = 3;
+  plan.chain = c.options;
+  plan.precision = precision;
+  plan.on_collapse = on_collapse;
+  return plan;
 }
 
-template <class R, class G = Prior, class M>
-void expect_reference(const M& model, double least, double tolerance) {
+/// A filter on the vectors that this file is compiled for.
+template <class M>
+std::unique_ptr<Filter> vectors(const M& model, const Plan& plan) {
+  return simd_filter<M, kIsaHere>(model, plan, "test");
+}
+
+/// The difference of both engines' runs.
+template <class M>
+double from_reference(const M& model, const std::vector<Row<double>>& rows, const Plan& plan, double least) {
+  const std::size_t dimensions = model.states().size();
+  return difference(run(*vectors(model, plan), rows, dimensions),
+                    run(*reference_filter(model, plan, "test"), rows, dimensions), least);
+}
+
+/// The same by a proposal, with which plans do not come to vectors.
+template <class R>
+double from_reference_by_observation(const Ungm<1>& model, const std::vector<Row<double>>& rows, const Case& c) {
+  const auto reference = make_auxiliary<R, UngmObservation>(model, c.particles, 3, c.options, OnCollapse::kStop);
+  VectorMetropolisFilter<Ungm<1>, R, UngmObservation> filter(model, c.particles, 3, c.options, OnCollapse::kStop, 1);
+  return difference(run(filter, rows, 1), run(*reference, rows, 1), 0.1);
+}
+
+template <class M>
+void expect_reference(const M& model, Precision precision, double least, double tolerance) {
   const auto rows = drawn_rows(model, 12);
-  for (const Case& c : cases()) EXPECT_LT((from_reference<R, G>(model, rows, c, least)), tolerance) << text(c);
+  for (const Case& c : cases())
+    EXPECT_LT(from_reference(model, rows, plan_of(c, precision), least), tolerance) << text(c);
+}
+template <class R>
+void expect_reference_by_observation(double tolerance) {
+  const Ungm<1> model;
+  const auto rows = drawn_rows(model, 12);
+  for (const Case& c : cases()) EXPECT_LT(from_reference_by_observation<R>(model, rows, c), tolerance) << text(c);
 }
 
 TEST(VectorMetropolis, IsTheReferenceStepByStep) {
-  expect_reference<double>(Ungm<1>{}, 0.1, 1e-3);
-  expect_reference<double>(Ungm<2>{}, 0.1, 1e-3);
-  expect_reference<double>(Bearings{}, 1e-4, 1e-3);
-  expect_reference<double, UngmObservation>(Ungm<1>{}, 0.1, 1e-3);
+  expect_reference(Ungm<1>{}, Precision::kDouble, 0.1, 1e-3);
+  expect_reference(Ungm<2>{}, Precision::kDouble, 0.1, 1e-3);
+  expect_reference(Bearings{}, Precision::kDouble, 1e-4, 1e-3);
+  expect_reference_by_observation<double>(1e-3);
 }
 
 LinearGaussian six_states() {
@@ -133,16 +166,15 @@ LinearGaussian six_states() {
 // referee  the reference engine, whose numbers follow the same weights
 TEST(VectorMetropolis, ChangesItsNumberAsTheReferenceDoes) {
   const auto check = [](const auto& model, const ChainOptions& chains) {
-    using M = std::decay_t<decltype(model)>;
     const auto rows = drawn_rows(model, 30);
+    const Plan plan = plan_of({3000, chains});
     const AdaptiveOptions options{.most = 3000, .error = 0.05};
-    AdaptiveFilter reference(make_auxiliary(model, 3000, 3, chains), options);
-    AdaptiveFilter vectors(
-        std::make_unique<VectorMetropolisFilter<M, double>>(model, 3000, 3, chains, OnCollapse::kStop, 1), options);
+    AdaptiveFilter referee(reference_filter(model, plan, "test"), options);
+    AdaptiveFilter vector(vectors(model, plan), options);
     const std::size_t dimensions = model.states().size();
-    EXPECT_LT(difference(run(vectors, rows, dimensions), run(reference, rows, dimensions), 0.1), 1e-3);
-    EXPECT_LT(vectors.counts().least, 2048U);
-    EXPECT_EQ(vectors.counts().most, 3000U + chains.chains * *chains.burn_in);
+    EXPECT_LT(difference(run(vector, rows, dimensions), run(referee, rows, dimensions), 0.1), 1e-3);
+    EXPECT_LT(vector.counts().least, 2048U);
+    EXPECT_EQ(vector.counts().most, 3000U + chains.chains * *chains.burn_in);
   };
   for (const auto parents : {mote::Parents::kIid, mote::Parents::kPermuted, mote::Parents::kSweep})
     for (const auto start : {ChainStart::kFirst, ChainStart::kWeighted})
@@ -152,22 +184,22 @@ TEST(VectorMetropolis, ChangesItsNumberAsTheReferenceDoes) {
 
 // In float a chain's decision may fall the other way, and with it one of N states.
 TEST(VectorMetropolis, IsTheReferenceStepByStepInFloat) {
-  expect_reference<float>(Ungm<1>{}, 0.1, 0.05);
-  expect_reference<float>(Bearings{}, 1e-4, 0.05);
-  expect_reference<float, UngmObservation>(Ungm<1>{}, 0.1, 0.05);
+  expect_reference(Ungm<1>{}, Precision::kFloat, 0.1, 0.05);
+  expect_reference(Bearings{}, Precision::kFloat, 1e-4, 0.05);
+  expect_reference_by_observation<float>(0.05);
 }
 
 TEST(VectorMetropolis, TwinAnotherSeedIsNotTheReference) {
   const Ungm<1> model;
   const auto rows = drawn_rows(model, 12);
-  VectorMetropolisFilter<Ungm<1>, double> vectors(model, 3000, 4, {.chains = 16}, OnCollapse::kStop, 1);
-  EXPECT_GT(
-      difference(run(vectors, rows, 1), run(*make_auxiliary<double>(model, 3000, 3, {.chains = 16}), rows, 1), 0.1),
-      0.05);
+  const Plan plan = plan_of({3000, {.chains = 16}});
+  Plan other = plan;
+  other.seed = 4;
+  EXPECT_GT(difference(run(*vectors(model, other), rows, 1), run(*reference_filter(model, plan, "test"), rows, 1), 0.1),
+            0.05);
 }
 
-template <class R>
-void expect_same_on_any_number_of_threads() {
+void expect_same_on_any_number_of_threads(Precision precision) {
   const Ungm<1> model;
   const auto rows = drawn_rows(model, 6);
   for (const ChainOptions& options :
@@ -175,19 +207,19 @@ void expect_same_on_any_number_of_threads() {
         ChainOptions{.draws = 60000, .burn_in = 10, .chains = 33, .start = ChainStart::kWeighted}}) {
     std::vector<std::vector<Told>> all;
     for (const std::size_t threads : {1, 2, 3, 8}) {
-      VectorMetropolisFilter<Ungm<1>, R> filter(model, 40001, 3, options, OnCollapse::kStop, threads);
-      all.push_back(run(filter, rows, 1));
+      Plan plan = plan_of({40001, options}, precision);
+      plan.threads = threads;
+      all.push_back(run(*vectors(model, plan), rows, 1));
     }
     for (const auto& told : all) EXPECT_EQ(difference(told, all[0], 1), 0);
   }
 }
 TEST(VectorMetropolis, ResultsDoNotDependOnThreads) {
-  expect_same_on_any_number_of_threads<float>();
-  expect_same_on_any_number_of_threads<double>();
+  expect_same_on_any_number_of_threads(Precision::kFloat);
+  expect_same_on_any_number_of_threads(Precision::kDouble);
 }
 
-template <class R>
-void expect_resumed(const Case& c, OnCollapse on_collapse) {
+void expect_resumed(const Case& c, Precision precision, OnCollapse on_collapse) {
   const Ungm<1> model;
   Recording recording;
   const auto rows = drawn_rows(model, 8);
@@ -196,24 +228,20 @@ void expect_resumed(const Case& c, OnCollapse on_collapse) {
   recording.steps[4].rows = {Row<double>::of({1e300})};
   RunRequest request;
   request.states = model.states();
-  Plan plan;
-  plan.on_collapse = on_collapse;
-  const auto make = [&] {
-    return std::make_unique<VectorMetropolisFilter<Ungm<1>, R>>(model, c.particles, 3, c.options, on_collapse, 1);
-  };
+  const Plan plan = plan_of(c, precision, on_collapse);
+  const auto make = [&] { return vectors(model, plan); };
   EXPECT_EQ(laws::broken_promise(make, plan, recording, request), "") << text(c);
 }
 TEST(VectorMetropolis, IsResumedBitByBit) {
   for (const Case& c : cases())
     for (const OnCollapse on_collapse : {OnCollapse::kKeep, OnCollapse::kReset}) {
-      expect_resumed<double>(c, on_collapse);
-      expect_resumed<float>(c, on_collapse);
+      expect_resumed(c, Precision::kDouble, on_collapse);
+      expect_resumed(c, Precision::kFloat, on_collapse);
     }
 }
 
 // A row that no state explains, and one that is no number: all weights are zero.
-template <class R>
-void expect_reference_on_collapse() {
+void expect_reference_on_collapse(Precision precision) {
   const Ungm<1> model;
   for (const double impossible : {1e200, kNaN})
     for (const auto on_collapse : {OnCollapse::kStop, OnCollapse::kKeep, OnCollapse::kReset})
@@ -221,23 +249,24 @@ void expect_reference_on_collapse() {
         auto rows = drawn_rows(model, 8);
         rows[2].values[0] = impossible;
         const Case c{1500, {.draws = 2500, .burn_in = 3, .chains = 20, .start = start}};
-        EXPECT_LT((from_reference<R, Prior>(model, rows, c, 0.1, on_collapse)), 0.05) << impossible;
-        VectorMetropolisFilter<Ungm<1>, R> filter(model, c.particles, 3, c.options, on_collapse, 1);
-        const auto told = run(filter, rows, 1);
+        const Plan plan = plan_of(c, precision, on_collapse);
+        EXPECT_LT(from_reference(model, rows, plan, 0.1), 0.05) << impossible;
+        const auto told = run(*vectors(model, plan), rows, 1);
         EXPECT_TRUE(told[2].report.collapsed);
         EXPECT_EQ(told[2].report.log_evidence, -kInfinity);
         for (const Told& step : told) EXPECT_TRUE(std::isfinite(step.moments[0].mean + step.moments[0].sd));
       }
 }
 TEST(VectorMetropolis, CollapsesAsTheReference) {
-  expect_reference_on_collapse<float>();
-  expect_reference_on_collapse<double>();
+  expect_reference_on_collapse(Precision::kFloat);
+  expect_reference_on_collapse(Precision::kDouble);
 }
 
 TEST(VectorMetropolis, ShowsWeightsThatAgreeWithItsMoments) {
   const Bearings model;
   const auto rows = drawn_rows(model, 4);
-  VectorMetropolisFilter<Bearings, float> filter(model, 2500, 3, {.draws = 3001, .chains = 16}, OnCollapse::kStop, 1);
+  const auto made = vectors(model, plan_of({2500, {.draws = 3001, .chains = 16}}, Precision::kFloat));
+  Filter& filter = *made;
   for (Step t = 1; t <= 4; ++t) {
     StepReport report = t == 2 ? filter.predict(t) : filter.update(t, {&rows[static_cast<std::size_t>(t) - 1], 1});
     const WeightedSet set = filter.weighted();
@@ -253,24 +282,25 @@ TEST(VectorMetropolis, ShowsWeightsThatAgreeWithItsMoments) {
 }
 
 /// Whether every rank of a team tells the same, bit by bit, as a filter that is alone.
-template <class R, class M>
-void expect_the_same_on_teams(const M& model, std::size_t particles, const ChainOptions& options,
-                              const std::vector<std::size_t>& teams, OnCollapse on_collapse = OnCollapse::kStop) {
-  const auto rows = drawn_rows(model, 11);
-  const std::size_t dimensions = model.states().size();
-  const auto made = [&](Team* team) {
-    return VectorMetropolisFilter<M, R>(model, particles, 3, options, on_collapse, 1, Estimates::kSpreads, team);
-  };
-  auto alone = made(nullptr);
-  const auto expected = run(alone, rows, dimensions);
+template <class Make>
+void expect_the_same_on_teams(const Make& make, const std::vector<Row<double>>& rows, std::size_t dimensions,
+                              const Plan& plan, const std::vector<std::size_t>& teams) {
+  const auto expected = run(*make(plan), rows, dimensions);
   for (const std::size_t ranks : teams) {
     std::vector<std::vector<Told>> told(ranks);
     ThreadTeams(ranks).run([&](Team& team) {
-      auto filter = made(&team);
-      told[team.rank()] = run(filter, rows, dimensions);
+      Plan mine = plan;
+      mine.team = &team;
+      told[team.rank()] = run(*make(mine), rows, dimensions);
     });
     for (const auto& mine : told) EXPECT_EQ(difference(mine, expected, 1e-300), 0) << ranks << " ranks";
   }
+}
+
+template <class M>
+void expect_the_same_on_teams(const M& model, const Plan& plan, const std::vector<std::size_t>& teams) {
+  expect_the_same_on_teams([&](const Plan& mine) { return vectors(model, mine); }, drawn_rows(model, 11),
+                           model.states().size(), plan, teams);
 }
 
 /// A model that no particle of most steps can explain.
@@ -285,15 +315,20 @@ struct Doomed : LocalLevel {
 // carry along (one, four) and that they do not (six).
 TEST(VectorMetropolis, TeamsChangeNoBit) {
   for (const ChainStart start : {ChainStart::kFirst, ChainStart::kWeighted}) {
-    expect_the_same_on_teams<double>(Ungm<1>{}, 8 * kBlock, {.chains = 16, .start = start}, {1, 2, 3, 5, 8});
-    expect_the_same_on_teams<float>(Ungm<1>{}, 9 * kBlock + 77,
-                                    {.burn_in = 70, .chains = 37, .parents = mote::Parents::kPermuted, .start = start},
-                                    {2, 3, 7});
-    expect_the_same_on_teams<double>(Bearings{}, 5 * kBlock,
-                                     {.draws = 7 * kBlock + 5, .burn_in = 21, .chains = 5, .start = start}, {2, 5});
-    expect_the_same_on_teams<double>(six_states(), 3 * kBlock, {.chains = 10, .start = start}, {3});
+    expect_the_same_on_teams(Ungm<1>{}, plan_of({8 * kBlock, {.chains = 16, .start = start}}), {1, 2, 3, 5, 8});
+    const ChainOptions many{.burn_in = 70, .chains = 37, .parents = mote::Parents::kPermuted, .start = start};
+    expect_the_same_on_teams(Ungm<1>{}, plan_of({9 * kBlock + 77, many}, Precision::kFloat), {2, 3, 7});
+    const ChainOptions longer{.draws = 7 * kBlock + 5, .burn_in = 21, .chains = 5, .start = start};
+    expect_the_same_on_teams(Bearings{}, plan_of({5 * kBlock, longer}), {2, 5});
+    expect_the_same_on_teams(six_states(), plan_of({3 * kBlock, {.chains = 10, .start = start}}), {3});
     for (const OnCollapse policy : {OnCollapse::kKeep, OnCollapse::kReset})
-      expect_the_same_on_teams<double>(Doomed{}, 4 * kBlock, {.chains = 7, .start = start}, {3}, policy);
+      expect_the_same_on_teams(
+          [](const Plan& plan) {
+            return std::make_unique<VectorMetropolisFilter<Doomed, double>>(
+                Doomed{}, plan.particles, plan.seed, plan.chain, plan.on_collapse, 1, Estimates::kSpreads, plan.team);
+          },
+          drawn_rows(Doomed{}, 11), 1, plan_of({4 * kBlock, {.chains = 7, .start = start}}, Precision::kDouble, policy),
+          {3});
   }
 }
 
@@ -325,8 +360,10 @@ double evidence_z(const LocalLevel& model) {
   double sum = 0;
   double squares = 0;
   for (std::size_t seed = 1; seed <= kFilters; ++seed) {
-    VectorMetropolisFilter<LocalLevel, float> filter(model, 4096, seed, {.burn_in = 20, .chains = 16},
-                                                     OnCollapse::kStop, 1);
+    Plan plan = plan_of({4096, {.burn_in = 20, .chains = 16}}, Precision::kFloat);
+    plan.seed = seed;
+    const auto made = vectors(model, plan);
+    Filter& filter = *made;
     double log_evidence = -exact;
     for (std::size_t k = 0; k < rows.size(); ++k) {
       StepReport report = filter.update(static_cast<Step>(k) + 1, {&rows[k], 1});

@@ -7,7 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "mote/model/bearings.hpp"
-#include "mote/software/simd/importance.hpp"
+#include "mote/software/engines.hpp"
+#include "mote/software/simd/here.hpp"
 
 namespace {
 std::atomic<std::size_t> allocations{0};
@@ -37,9 +38,13 @@ namespace {
 /// Allocations of twenty steps, after as many to get used to them.
 std::size_t allocations_of(const SelectionOptions& selection, std::size_t particles = 10000, std::size_t threads = 1) {
   const Bearings model;
-  Stream stream(std::make_unique<VectorImportanceFilter<Bearings, float>>(model, particles, 1, selection,
-                                                                          OnCollapse::kKeep, threads),
-                model.states(), model.columns());
+  Plan plan;
+  plan.particles = particles;
+  plan.precision = Precision::kFloat;
+  plan.selection = selection;
+  plan.on_collapse = OnCollapse::kKeep;
+  plan.threads = threads;
+  Stream stream(simd_filter<Bearings, kIsaHere>(model, plan, "test"), model.states(), model.columns());
   auto row = blank_row(model);
   row.values[0] = 0.8;
   std::size_t before = 0;

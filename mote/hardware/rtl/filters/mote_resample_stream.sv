@@ -32,7 +32,7 @@ module mote_resample_stream #(
     output logic                parent_last_o
 );
   typedef logic [At:0] count_t;
-  localparam count_t One = count_t'(1);
+  localparam logic [At:0] One = (At + 1)'(1);
 
   // ---- a set's weights in, then its parents out
   count_t taken_q, kept_q, left_q;

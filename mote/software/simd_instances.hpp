@@ -1,7 +1,7 @@
 #pragma once
-/// Included by the generated files that are compiled for one instruction set each; nobody else.
+/// Included by the files that compile a model's filters for one instruction set each; by nobody else.
 
-#include "mote/app/catalogue/simd.hpp"
+#include "mote/software/engines.hpp"
 #include "mote/software/simd/here.hpp"
 
 namespace mote {

@@ -1,5 +1,7 @@
 #pragma once
-/// The SIMD engine's filters of the catalogue's models, compiled once for every instruction set, chosen at run time.
+/// Every engine's filters of the catalogue's models: declared here, compiled once, in files that models.txt names (see
+/// engine_instances.hpp and simd_instances.hpp). A model that is not in models.txt has make_reference_filter(),
+/// make_pipeline_filter(), make_ranked_filter() and make_vector_filter(), whose meaning and errors these share.
 
 #include <memory>
 #include <string>
@@ -7,18 +9,29 @@
 #include "mote/base/refusal.hpp"
 #include "mote/engine/plan.hpp"
 #include "mote/filter/filter.hpp"
+#include "mote/software/pipeline/pipeline.hpp"
 #include "mote/software/simd/isa.hpp"
 
 namespace mote {
 
-/// A filter in the vectors of one instruction set. Defined in files of their own, compiled for it: see
-/// simd_instance.hpp.
+template <Model M>
+std::unique_ptr<Filter> reference_filter(const M& model, const Plan& plan, const std::string& where);
+
+/// A filter of the pipeline engine, of the plan's size or another.
+template <Model M>
+std::unique_ptr<Filter> pipeline_filter(const M& model, const Plan& plan, const std::string& where);
+template <Model M>
+std::unique_ptr<Filter> pipeline_filter(const M& model, const Plan& plan, const std::string& where,
+                                        const PipelineSize& size);
+
+template <Model M>
+std::unique_ptr<Filter> ranked_filter(const M& model, const Plan& plan, const std::string& where);
+
+/// A filter in the vectors of one instruction set.
 template <Model M, Isa kIsa>
 std::unique_ptr<Filter> simd_filter(const M& model, const Plan& plan, const std::string& where);
 
 /// A filter in the widest vectors of this processor.
-///
-/// error   as make_vector_filter
 template <Model M>
 std::unique_ptr<Filter> simd_filter(const M& model, const Plan& plan, const std::string& where) {
   const auto isa = best_isa();

@@ -1,0 +1,36 @@
+# The models of the catalogue: mote/model/models.txt has a line for each, see there.
+set(MOTE_MODELS_FILE ${PROJECT_SOURCE_DIR}/mote/model/models.txt)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${MOTE_MODELS_FILE})
+
+# mote_model_line(<line>): sets in the caller what the line says: model_name, model_id, model_entry_header, model_entry, model_header, model_types.
+function(mote_model_line line)
+  string(REGEX MATCH "^([^|]+)\\|([^|]+)\\|([^|]+)\\|(.+)$" _ "${line}")
+  string(STRIP "${CMAKE_MATCH_1}" name)
+  string(STRIP "${CMAKE_MATCH_2}" entry_header)
+  string(STRIP "${CMAKE_MATCH_3}" entry)
+  string(REPLACE "," ";" types "${CMAKE_MATCH_4}")
+  list(POP_FRONT types header)
+  string(STRIP "${header}" header)
+  list(TRANSFORM types STRIP)
+  string(MAKE_C_IDENTIFIER "${name}" id)
+  foreach(part IN ITEMS name id entry_header entry header types)
+    set(model_${part} "${${part}}" PARENT_SCOPE)
+  endforeach()
+endfunction()
+
+# mote_engine_sources(<id> <header> <types>): writes the files that compile the filters of these models, and sets engine_source and
+# simd_source in the caller; the second is one for mote_simd().
+function(mote_engine_sources id header types)
+  set(engines "")
+  set(vectors "")
+  foreach(type IN LISTS types)
+    string(APPEND engines "MOTE_ENGINES(${type})\n")
+    string(APPEND vectors "MOTE_SIMD_MODEL(${type})\n")
+  endforeach()
+  set(engine_source ${CMAKE_CURRENT_BINARY_DIR}/engines/${id}.cpp)
+  set(simd_source ${CMAKE_CURRENT_BINARY_DIR}/engines/simd_${id}.cpp)
+  file(CONFIGURE OUTPUT ${engine_source} CONTENT "#include \"${header}\"\n#include \"mote/software/engine_instances.hpp\"\n${engines}" @ONLY)
+  file(CONFIGURE OUTPUT ${simd_source} CONTENT "#include \"${header}\"\n#include \"mote/software/simd_instances.hpp\"\n${vectors}" @ONLY)
+  set(engine_source ${engine_source} PARENT_SCOPE)
+  set(simd_source ${simd_source} PARENT_SCOPE)
+endfunction()
