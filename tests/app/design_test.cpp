@@ -88,6 +88,31 @@ TEST_F(Design, RefusesNonsense) {
   }
 }
 
+// claim    the laws that speak of a design are held against its schedule; sequential and unbounded ones are exact
+TEST_F(Design, SaysHowTheLawsErr) {
+  const Json laws = optimised(kGrowth + "--burn-in 20 --chains 4")["laws"];
+  for (const char* law : {"L1", "L2"}) EXPECT_NEAR(laws[law]["error"].get<double>(), 0, 1e-12) << law;
+  for (const char* law : {"L3", "L4", "L9"}) EXPECT_TRUE(laws.contains(law)) << law;
+  const Ended ended = scratch_.shell("mote design laws --demands 300 --json l.json");
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(Json::parse(scratch_.read("l.json")).size(), 9U);
+  EXPECT_NE(ended.out.find("SISR, with its barrier"), std::string::npos) << ended.out;
+}
+
+// claim    predictions stand beside what was measured; how well they hold is a matter of the machine
+TEST_F(Design, ChecksItsPredictions) {
+  const Ended ended = scratch_.shell("mote design check threads -n 1000 --threads 1 --rounds 1 --json c.json");
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const Json checks = Json::parse(scratch_.read("c.json"))["threads"];
+  ASSERT_EQ(checks.size(), 3U);
+  for (const Json& check : checks)
+    EXPECT_NEAR(check["ratio"].get<double>(), check["measured"].get<double>() / check["predicted"].get<double>(), 1e-9);
+  EXPECT_NE(ended.out.find("doa, sisr, N = 1000, 1 thread: a step, us"), std::string::npos) << ended.out;
+  const Ended refused = scratch_.shell("mote design check luck");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("PART: expected one of threads, circuit, cluster"), std::string::npos) << refused.err;
+}
+
 // claim    times of stages are positive, and those of the circuit are its latencies
 TEST_F(Design, MeasuresStages) {
   const Ended ended = scratch_.shell("mote design measure ungm -n 1000 --repeats 1 --circuit --json m.json");

@@ -85,6 +85,8 @@ Command compare_command();
 Command graph_command();
 Command rtl_command();
 Command design_command();
+Command design_check_command();
+Command design_laws_command();
 Command design_measure_command();
 Command design_optimise_command();
 Command design_explore_command();

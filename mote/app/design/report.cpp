@@ -86,6 +86,7 @@ DesignReport design_report(const DesignRequest& request) {
   report.law_time =
       single_chain_time(static_cast<double>(line_of(request.demand, 1, 1, p.chains).n), request.demand.times,
                         static_cast<double>(p.proposers), static_cast<double>(p.weighers));
+  report.laws = check_laws(request.demand, p.proposers, p.weighers, p.chains);
   report.one_more_proposer = exact(request, p.proposers + 1, p.weighers, p.chains);
   report.one_more_weigher = exact(request, p.proposers, p.weighers + 1, p.chains);
   report.one_more_chain = exact(request, p.proposers, p.weighers, p.chains + 1);
@@ -98,6 +99,9 @@ Json design_json(const DesignReport& report) {
   const WholePlant& p = report.whole.plant;
   const auto more = [&](double time) { return Json{{"exact_time", time}, {"saves", p.exact_time - time}}; };
   const auto& best = report.answer.best;
+  Json laws = Json::object();
+  for (const LawCheck& check : report.laws)
+    laws[check.law] = {{"time", check.time}, {"exact_time", check.exact_time}, {"error", check.error()}};
   return {{"cases", cases},
           {"best", best ? Json(kNames[static_cast<std::size_t>(*best)]) : Json(nullptr)},
           {"integer",
@@ -113,6 +117,7 @@ Json design_json(const DesignReport& report) {
             {"proven", report.whole.proven},
             {"schedules", report.whole.schedules},
             {"breaks", broken(report.whole)}}},
+          {"laws", laws},
           {"pairs",
            {{"rule", report.pairs_by_rule > 0 ? Json(report.pairs_by_rule) : Json(nullptr)},
             {"fewest", report.fewest_pairs}}},

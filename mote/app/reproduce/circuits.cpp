@@ -38,21 +38,23 @@ RunRecord CircuitBench::record(const Recording& recording, std::uint64_t seed_of
   return golden_run(circuit(), design, recording, where_);
 }
 
-/// Cycles of a step, from runs of all steps and of the first alone, over the law for one proposal a cycle in each lane.
-double CircuitBench::step_cycles_over_law(const Recording& recording) {
+double CircuitBench::step_cycles(const Recording& recording) {
   const auto observed = observed_by(circuit(), instance_of(circuit(), design_, recording, 0), where_);
   hardware::Simulator simulator(*circuit().machine);
   const auto cycles = [&](std::size_t steps) {
     const auto end = observed.begin() + static_cast<std::ptrdiff_t>(steps);
     return static_cast<double>(simulator.run(design_.registers, {observed.begin(), end}).cycles);
   };
+  return (cycles(observed.size()) - cycles(1)) / static_cast<double>(observed.size() - 1);
+}
+
+double CircuitBench::law_cycles() {
   const hardware::ImhLanes lanes = design_.architecture->fed(circuit().machine->capacity());
   const hardware::ImhLatency latency(circuit().machine->formats(), lanes);
   const StageLatencies latencies{static_cast<double>(latency.propose), static_cast<double>(latency.weigh)};
-  const double law = lanes.folded ? paired_time(design_.registers.draws + design_.registers.burn_in, lanes.count,
-                                                {1, 1, 1.0 / lanes.count}, latencies)
-                                  : sequential_time(lanes.rows(design_.registers), {1, 1, 1}, latencies);
-  return (cycles(observed.size()) - cycles(1)) / (static_cast<double>(observed.size() - 1) * law);
+  return lanes.folded ? paired_time(design_.registers.draws + design_.registers.burn_in, lanes.count,
+                                    {1, 1, 1.0 / lanes.count}, latencies)
+                      : sequential_time(lanes.rows(design_.registers), {1, 1, 1}, latencies);
 }
 
 const CircuitReport& CircuitBench::report(const Recording& recording) {
@@ -64,7 +66,7 @@ const CircuitReport& CircuitBench::report(const Recording& recording) {
 }
 
 double CircuitBench::figure(const Comparison& c, const Recording& recording) {
-  if (c.key == "step_cycles_over_law") return step_cycles_over_law(recording);
+  if (c.key == "step_cycles_over_law") return step_cycles(recording) / law_cycles();
   if (c.key == "stages") return circuit().machine->stages();
   if (c.key == "golden_cycles") return static_cast<double>(golden_cycles(circuit(), design_, recording, where_));
   const CircuitReport& found = report(recording);

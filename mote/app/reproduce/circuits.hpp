@@ -22,10 +22,13 @@ class CircuitBench {
   RunRecord record(const Recording& recording, std::uint64_t seed_offset);
   /// What a comparison asks for, one of kCircuitKeys, on a recording.
   double figure(const Comparison& comparison, const Recording& recording);
+  /// Cycles of a step of IMH: simulated, from runs of all steps and of the first alone; by the law for one proposal a
+  /// cycle in each lane.
+  double step_cycles(const Recording& recording);
+  double law_cycles();
 
  private:
   const FilterCircuit& circuit();
-  double step_cycles_over_law(const Recording& recording);
   const CircuitReport& report(const Recording& recording);
 
   std::string where_;

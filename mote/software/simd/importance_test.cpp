@@ -186,15 +186,15 @@ double distance_of_adaptive_engines(const SelectionOptions& selection, std::size
   plan.threads = threads;
   const Recording recording = recording_of(model);
   const AdaptiveOptions options{.most = plan.particles, .error = 0.06};
-  AdaptiveFilter expected(reference(model, plan), options);
+  AdaptiveFilter referee(reference(model, plan), options);
   AdaptiveFilter vector(vectors(model, plan), options);
   const auto rows = rows_of(model, vector, plan, recording);
   counts = vector.counts();
-  return distance(rows, rows_of(model, expected, plan, recording));
+  return distance(rows, rows_of(model, referee, plan, recording));
 }
 
-// claim    a selection that leaves more or fewer than it found is the reference's, by every scheme, over blocks'
-// borders referee  the reference engine, whose numbers follow the same weights
+// claim    a selection that leaves more or fewer than it found is the reference's, by every scheme, across blocks
+// referee  the reference engine, whose numbers follow the same weights
 TEST(VectorImportanceFilter, ChangesItsNumberAsTheReferenceFilterDoes) {
   for (const Scheme& scheme : schemes())
     for (const double exponent : {1.0, 0.5}) {

@@ -166,13 +166,13 @@ LinearGaussian six_states() {
 // referee  the reference engine, whose numbers follow the same weights
 TEST(VectorMetropolis, ChangesItsNumberAsTheReferenceDoes) {
   const auto check = [](const auto& model, const ChainOptions& chains) {
-    const Plan plan = plan_of({3000, chains});
     const auto rows = drawn_rows(model, 30);
+    const Plan plan = plan_of({3000, chains});
     const AdaptiveOptions options{.most = 3000, .error = 0.05};
-    AdaptiveFilter expected(reference_filter(model, plan, "test"), options);
+    AdaptiveFilter referee(reference_filter(model, plan, "test"), options);
     AdaptiveFilter vector(vectors(model, plan), options);
     const std::size_t dimensions = model.states().size();
-    EXPECT_LT(difference(run(vector, rows, dimensions), run(expected, rows, dimensions), 0.1), 1e-3);
+    EXPECT_LT(difference(run(vector, rows, dimensions), run(referee, rows, dimensions), 0.1), 1e-3);
     EXPECT_LT(vector.counts().least, 2048U);
     EXPECT_EQ(vector.counts().most, 3000U + chains.chains * *chains.burn_in);
   };
