@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mote/app/commands/memory.hpp"
+#include "mote/app/commands/quantity.hpp"
 #include "mote/app/files/text.hpp"
 #include "mote/engine/budget.hpp"
 
@@ -13,20 +14,6 @@ namespace mote {
 namespace {
 
 constexpr double kTrialSeconds = 0.1;  // that steps of one number of particles are tried for, about
-constexpr double kShortest = 1e-9;
-constexpr double kLongest = 1000;
-
-/// "1ms" in seconds.
-std::optional<double> seconds_in(std::string_view text) {
-  for (const auto& [unit, seconds] :
-       {std::pair{"ns", 1e-9}, std::pair{"us", 1e-6}, std::pair{"ms", 1e-3}, std::pair{"s", 1.0}})
-    if (text.ends_with(unit)) {
-      const auto number = number_in(text.substr(0, text.size() - std::string_view(unit).size()));
-      if (!number || !(*number * seconds >= kShortest && *number * seconds <= kLongest)) return std::nullopt;
-      return *number * seconds;
-    }
-  return std::nullopt;
-}
 
 std::string in_units(double seconds) {
   if (seconds < 1e-6) return fmt::format("{:.3g} ns", 1e9 * seconds);
@@ -37,13 +24,6 @@ std::string in_units(double seconds) {
 [[noreturn]] void refuse(const Arguments& arguments, const std::string& what, const std::string& expected,
                          const std::string& got, const std::string& next) {
   throw Refusal(ExitCode::kWrongUse, {arguments.where(), what, expected, got, next});
-}
-
-double time_from(const Arguments& arguments) {
-  const std::string text = arguments.text("--budget");
-  if (const auto seconds = seconds_in(text)) return *seconds;
-  refuse(arguments, "--budget", "a time from 1ns to 1000s with its unit: ns, us, ms or s", in_quotes(text),
-         "Pass --budget 1ms.");
 }
 
 std::vector<double> bins_from(const Arguments& arguments) {
@@ -109,7 +89,7 @@ std::optional<Budget> budget_from(const Arguments& arguments, Plan& plan) {
     refuse(arguments, "--most-particles", "no --budget beside it, which finds them",
            "--budget " + arguments.text("--budget"), "Pass one of the two.");
   Budget budget;
-  if (timed) budget.seconds = time_from(arguments);
+  if (timed) budget.seconds = quantity_from(arguments, "--budget", kTimes, "1ms");
   check_what_stands_beside(arguments, plan, timed ? "--budget" : "--most-particles");
   AdaptiveOptions& a = budget.adaptive;
   if (plan.filter != FilterKind::kSisr) a.least = std::max(a.least, plan.chain.chains);

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <sstream>
 
 #include <fmt/format.h>
 
+#include "mote/app/commands/particle_list.hpp"
 #include "mote/app/commands/plan_options.hpp"
-#include "mote/app/files/text.hpp"
 #include "mote/base/draws.hpp"
 
 namespace mote {
@@ -23,21 +22,9 @@ bool has_chains(const Workload& work) {
   return work.filter == FilterKind::kImh || work.filter == FilterKind::kAuxiliary;
 }
 
-/// Growing numbers separated by commas.
 std::vector<std::size_t> list_from(const Arguments& arguments, const std::string& option, long long most) {
-  std::vector<std::size_t> all;
-  std::istringstream stream(arguments.text(option));
-  for (std::string part; std::getline(stream, part, ',');) {
-    const auto n = integer_in(std::string(trimmed(part)));
-    if (!n || *n < 1 || *n > most)
-      throw Refusal(ExitCode::kWrongUse,
-                    {arguments.where(), option, fmt::format("integers from 1 to {}, separated by commas", most),
-                     "\"" + arguments.text(option) + "\"", "Pass " + option + " 1,2,4."});
-    all.push_back(static_cast<std::size_t>(*n));
-  }
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return all;
+  const auto all = integer_list_from(arguments, option, 1, most, "1,2,4");
+  return {all.begin(), all.end()};
 }
 
 /// One of two options, the first unless told.
