@@ -185,7 +185,7 @@ double distance_of_adaptive_engines(const SelectionOptions& selection, std::size
   plan.selection = selection;
   plan.threads = threads;
   const Recording recording = recording_of(model);
-  const AdaptiveOptions options{.most = plan.particles, .error = 0.06};
+  const AdaptiveOptions options{.most = plan.particles, .error = 0.15};
   AdaptiveFilter referee(reference(model, plan), options);
   AdaptiveFilter vector(vectors(model, plan), options);
   const auto rows = rows_of(model, vector, plan, recording);

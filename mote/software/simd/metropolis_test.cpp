@@ -168,7 +168,7 @@ TEST(VectorMetropolis, ChangesItsNumberAsTheReferenceDoes) {
   const auto check = [](const auto& model, const ChainOptions& chains) {
     const auto rows = drawn_rows(model, 30);
     const Plan plan = plan_of({3000, chains});
-    const AdaptiveOptions options{.most = 3000, .error = 0.05};
+    const AdaptiveOptions options{.most = 3000, .error = 0.07};
     AdaptiveFilter referee(reference_filter(model, plan, "test"), options);
     AdaptiveFilter vector(vectors(model, plan), options);
     const std::size_t dimensions = model.states().size();
