@@ -25,9 +25,9 @@ class CommonRefusal : public Refusal {
 /// What filters a job in place of the engines.
 struct OtherMachine {
   std::unique_ptr<Filter> filter;
-  std::string engine;               ///< its name, for outputs
-  std::vector<report::Fact> facts;  ///< for the report
-  nlohmann::json summary;           ///< more members of the summary
+  std::string engine;                                 ///< its name, for outputs
+  std::vector<report::Fact> facts;                    ///< for the report
+  nlohmann::json summary = nlohmann::json::object();  ///< more members of the summary
 };
 using MachineMaker = std::function<OtherMachine(const Job& job, const Plan& plan)>;
 
