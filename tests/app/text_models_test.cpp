@@ -65,11 +65,14 @@ TEST_F(TextModels, GiveTheNumbersOfTheTemplates) {
   EXPECT_GT(distance("b.csv", "a.csv"), 1e-4);
 }
 
+// Few particles: one survivor that rounding changes moves all after it, and the chance of that grows like N^2.
 TEST_F(TextModels, FollowTheTemplateInFloat) {
   expect_done("mote simulate ungm --steps 20 --seed 4 --out d.csv");
-  expect_done("mote run ungm --data d.csv -n 1500 --precision float --out a.csv");
-  expect_done("mote run growth.toml --data d.csv -n 1500 --precision float --out b.csv");
-  EXPECT_LT(distance("b.csv", "a.csv"), 0.2) << "other roundings, now and then other survivors";
+  for (const std::string seed : {"1", "2", "3"}) {
+    expect_done("mote run ungm --data d.csv -n 200 --precision float --out a.csv --seed " + seed);
+    expect_done("mote run growth.toml --data d.csv -n 200 --precision float --out b.csv --seed " + seed);
+    EXPECT_LT(distance("b.csv", "a.csv"), 1e-3) << seed;
+  }
 }
 
 TEST_F(TextModels, MoveBlocksAsTheReferenceDoes) {
