@@ -45,5 +45,16 @@ TEST(Graph, FindsWordsThatKeepTheError) {
   EXPECT_FALSE(scratch.shell("mote graph ungm --words -n 10 --budget -1").code == 0);
 }
 
+// claim    the files that a model is made of are left as they are
+TEST(Graph, WritesNotOverWhatItReads) {
+  const Scratch scratch;
+  const std::string matrices = "F=[[1]]\nH=[[1]]\nQ=[[1]]\nR=[[1]]\nmean=[0]\ncovariance=[[1]]\n";
+  scratch.write("m.toml", matrices);
+  const std::string graph = "mote graph linear-gaussian --set file=m.toml --recordings 2 -n 50 ";
+  EXPECT_EQ(scratch.shell(graph + "--list l.txt").code, 0);
+  EXPECT_EQ(scratch.shell(graph + "--list m.toml").code, 2);
+  EXPECT_EQ(scratch.read("m.toml"), matrices);
+}
+
 }  // namespace
 }  // namespace mote::testing

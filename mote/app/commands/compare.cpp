@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "mote/app/catalogue/text_entry.hpp"
 #include "mote/app/commands/command.hpp"
+#include "mote/app/commands/inputs.hpp"
 #include "mote/app/commands/particle_list.hpp"
 #include "mote/app/compare/publication.hpp"
 #include "mote/app/files/output.hpp"
@@ -94,15 +94,6 @@ std::optional<double> lost_beyond_from(const Arguments& arguments) {
   return arguments.number("--lost-beyond", 0, 1e300);
 }
 
-void protect_inputs(OutputSet& outputs, const Arguments& arguments) {
-  outputs.protect(arguments.text("--data"));
-  outputs.protect(arguments.text("--truth"));
-  for (const std::string_view model : parts_of(arguments.text("MODEL"), ','))
-    if (is_text_model(std::string(model))) outputs.protect(std::string(model));
-  for (const std::string& setting : arguments.list("--set"))
-    if (setting.starts_with("file=")) outputs.protect(setting.substr(5));
-}
-
 /// A comparison on one model, checked, ready to run; and the reference that was asked for as a plan.
 struct Prepared {
   Outcome outcome;
@@ -152,7 +143,7 @@ ExitCode run_compare(const Arguments& arguments) {
     all.push_back(prepare(arguments, std::string(model), notes));
   }
   OutputSet outputs;
-  protect_inputs(outputs, arguments);
+  protect_inputs(outputs, arguments, {"--data", "--truth"});
   Output* csv = outputs.open(arguments.text("--out"));
   Output* json = outputs.open(arguments.text("--json"));
   Output* page = outputs.open(arguments.text("--report"));

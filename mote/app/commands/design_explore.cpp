@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "mote/app/catalogue/text_entry.hpp"
 #include "mote/app/commands/command.hpp"
+#include "mote/app/commands/inputs.hpp"
 #include "mote/app/explore/publication.hpp"
 #include "mote/app/explore/request.hpp"
 #include "mote/app/files/output.hpp"
@@ -18,14 +18,6 @@ namespace {
 using namespace explore;
 
 const std::string kLargeRun = "sisr -n 200000";
-
-void protect_inputs(OutputSet& outputs, const Arguments& arguments) {
-  outputs.protect(arguments.text("--data"));
-  outputs.protect(arguments.text("--truth"));
-  if (is_text_model(arguments.text("MODEL"))) outputs.protect(arguments.text("MODEL"));
-  for (const std::string& setting : arguments.list("--set"))
-    if (setting.starts_with("file=")) outputs.protect(setting.substr(5));
-}
 
 /// Where findings are kept: as told, or beside the JSON file.
 std::string state_file(const Arguments& arguments) {
@@ -63,7 +55,7 @@ ExitCode run_explore(const Arguments& arguments) {
   const std::unique_ptr<Target> target = target_from(arguments, material);
   const Order order = order_from(arguments, *target);
   OutputSet outputs;
-  protect_inputs(outputs, arguments);
+  protect_inputs(outputs, arguments, {"--data", "--truth"});
   const std::string state = state_file(arguments);
   outputs.reserve(state);
   Output* json = outputs.open(arguments.text("--json"));

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "mote/app/catalogue/scene.hpp"
-#include "mote/app/catalogue/text_entry.hpp"
 #include "mote/app/commands/command.hpp"
+#include "mote/app/commands/inputs.hpp"
 #include "mote/app/files/output.hpp"
 #include "mote/app/words/study.hpp"
 #include "mote/graph/print.hpp"
@@ -110,7 +110,7 @@ ExitCode run_graph(const Arguments& arguments) {
   const auto model = entry.make(Settings(arguments.where(), arguments.list("--set")), header);
   const WordStudyDesign design = design_from(arguments);
   OutputSet outputs;
-  if (is_text_model(arguments.text("MODEL"))) outputs.protect(arguments.text("MODEL"));
+  protect_inputs(outputs, arguments, {});
   Output* dot = outputs.open(arguments.text("--dot"));
   Output* list = outputs.open(arguments.text("--list"));
   Output* json = outputs.open(arguments.text("--json"));

@@ -4,12 +4,12 @@
 #include <nlohmann/json.hpp>
 
 #include "mote/app/catalogue/scene.hpp"
-#include "mote/app/catalogue/text_entry.hpp"
 #include "mote/app/circuits/accelerator.hpp"
 #include "mote/app/circuits/folder.hpp"
 #include "mote/app/circuits/instances.hpp"
 #include "mote/app/circuits/simulation.hpp"
 #include "mote/app/commands/command.hpp"
+#include "mote/app/commands/inputs.hpp"
 #include "mote/app/commands/job.hpp"
 #include "mote/app/commands/rtl_options.hpp"
 #include "mote/app/files/output.hpp"
@@ -34,15 +34,6 @@ Job job_from(const Arguments& arguments) {
                   .make(Settings(arguments.where(), arguments.list("--set")),
                         frame_header(arguments.integer("--columns", 1, 64)));
   return job;
-}
-
-/// Whatever the command reads is not to be written over.
-void protect_inputs(OutputSet& outputs, const Arguments& arguments) {
-  outputs.protect(arguments.text("--simulate"));
-  outputs.protect(arguments.text("--truth"));
-  if (is_text_model(arguments.text("MODEL"))) outputs.protect(arguments.text("MODEL"));
-  for (const std::string& setting : arguments.list("--set"))
-    if (setting.starts_with("file=")) outputs.protect(setting.substr(5));
 }
 
 /// What a testbench plays when nothing was recorded.
@@ -114,7 +105,7 @@ ExitCode run_accelerator(const Arguments& arguments) {
   const std::string kind = kinds[arguments.choice("--accelerator", kinds)];
   refuse_for_parts(arguments, kind);
   OutputSet outputs;
-  protect_inputs(outputs, arguments);
+  protect_inputs(outputs, arguments, {"--simulate", "--truth"});
   Output* json = outputs.open(arguments.text("--json"));
   const PlayedAccelerator played = accelerator_from(arguments, kind);
   std::optional<hardware::Cost> cost;
@@ -136,7 +127,7 @@ ExitCode run_rtl(const Arguments& arguments) {
   const Job job = job_from(arguments);
   const std::optional<hardware::Family> family = family_from(arguments);
   OutputSet outputs;
-  protect_inputs(outputs, arguments);
+  protect_inputs(outputs, arguments, {"--simulate", "--truth"});
   Output* json = outputs.open(arguments.text("--json"));
   Output* report = outputs.open(arguments.text("--report"));
   CircuitReport found{job.model_name, arguments.command_line(), design, {}, {}, {}};

@@ -1,3 +1,4 @@
+#include "mote/app/commands/inputs.hpp"
 #include "mote/app/commands/run.hpp"
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 #include <nlohmann/json.hpp>
 
 #include "mote/app/catalogue/catalogue.hpp"
-#include "mote/app/catalogue/text_entry.hpp"
 #include "mote/app/commands/budget.hpp"
 #include "mote/app/commands/checkpoint_options.hpp"
 #include "mote/app/commands/command.hpp"
@@ -46,15 +46,6 @@ void print_summary(const RunRecord& record, const Summary& s) {
                s.position_error->median, s.position_error->rmse);
 }
 
-/// Whatever the command reads is not to be written over.
-void protect_inputs(OutputSet& outputs, const Arguments& arguments) {
-  outputs.protect(arguments.text("--data"));
-  outputs.protect(arguments.text("--truth"));
-  if (is_text_model(arguments.text("MODEL"))) outputs.protect(arguments.text("MODEL"));
-  for (const std::string& setting : arguments.list("--set"))
-    if (setting.starts_with("file=")) outputs.protect(setting.substr(5));
-}
-
 /// A run before its first step.
 struct Prepared {
   Clock::time_point start;
@@ -70,7 +61,7 @@ struct Prepared {
 };
 
 void open_outputs(Prepared& run, const Arguments& arguments) {
-  protect_inputs(run.outputs, arguments);
+  protect_inputs(run.outputs, arguments, {"--data", "--truth"});
   run.outputs.reserve(arguments.text("--checkpoint"));
   run.estimates = run.outputs.open(arguments.text("--out"));
   run.summary = run.outputs.open(arguments.text("--summary"));
@@ -96,7 +87,7 @@ void prepare(Prepared& run, const Arguments& arguments, Team* team, bool writes)
                      arguments.text("--truth"), arguments.list("--set"), arguments.where());
   run.job.command = arguments.command_line();
   run.request = request_for(run.job, arguments.list("--estimate"), arguments.where());
-  check_memory(run.plan, run.job, arguments.where());
+  check_memory(run.plan, run.job, arguments.where(), run.budget ? "--most-particles" : "--particles");
   const bool has_particles = writes || !has_cast(run.plan);  // by stages they are with rank 0
   if (!has_particles) run.request.estimands.clear();
   if (has_particles && !writes && arguments.given("--dump-particles"))
@@ -113,11 +104,10 @@ void prepare(Prepared& run, const Arguments& arguments, Team* team, bool writes)
 
 /// Runs with as many particles as the time allows and the weights ask for.
 RunRecord run_within(Budget& budget, Prepared& run, const std::string& where) {
-  settle(budget, run.job, run.plan, where);
-  if (!budget.fits)
+  settle(budget, run.job, run.request, run.plan);
+  if (budget.seconds && !budget.fits)
     fmt::print(stderr, "{}: note: --budget: {} particles are the fewest, and take longer.\n", where,
                budget.adaptive.least);
-  check_memory(run.plan, run.job, where);
   const auto filter = adaptive_filter(budget, run.job, run.plan, where);
   RunRecord record = run_filter(*filter, run.job, run.plan, run.request);
   run.counts = filter->counts();

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include "mote/app/catalogue/scene.hpp"
-#include "mote/app/catalogue/text_entry.hpp"
 #include "mote/app/commands/command.hpp"
+#include "mote/app/commands/inputs.hpp"
 #include "mote/app/files/output.hpp"
 #include "mote/app/terminal/progress.hpp"
 #include "mote/app/terminal/signals.hpp"
@@ -42,9 +42,7 @@ ExitCode run_simulate(const Arguments& arguments) {
   const auto seed = static_cast<std::uint64_t>(arguments.integer("--seed", 0, 9223372036854775807LL));
   const std::atomic<bool>& stop = stop_flag();
   OutputSet outputs;
-  if (is_text_model(arguments.text("MODEL"))) outputs.protect(arguments.text("MODEL"));
-  for (const std::string& setting : arguments.list("--set"))
-    if (setting.starts_with("file=")) outputs.protect(setting.substr(5));
+  protect_inputs(outputs, arguments, {});
   Output* data = outputs.open(arguments.required("--out", "a file for the observations", "Pass --out obs.csv."));
   Output* truth = outputs.open(arguments.text("--truth"));
   fmt::print(stderr, "{}", note_on_columns(arguments, *model, header.size()));
