@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "mote/engine/recording.hpp"
+#include "mote/engine/run.hpp"
 #include "mote/filter/filter.hpp"
 
 namespace mote {
@@ -26,24 +26,29 @@ using StepClock = std::function<double(std::size_t particles)>;
 /// shape   1 <= least <= most
 Affordable affordable(double seconds, std::size_t least, std::size_t most, const StepClock& clock);
 
-/// A clock that runs filters along a recording, estimates included: the 0.9 quantile of some steps' times.
+/// A clock that runs filters along a recording as a run does, estimates included: the 0.9 quantile of some steps' times;
+/// infinity when the run is told to stop.
 ///
-/// shape   steps >= 1; a recording that is shorter is gone along again by a new filter
+/// shape   steps >= 1; a recording that is shorter, but not empty, is gone along again by a new filter
 class PilotClock {
  public:
-  using Make = std::function<std::unique_ptr<Filter>(std::size_t particles)>;
+  /// Makes a filter of the plan, which has the number of particles to be tried.
+  using Make = std::function<std::unique_ptr<Filter>(const Plan& plan)>;
 
-  PilotClock(Make make, const Recording& recording, std::vector<Quantity> states, std::size_t steps)
-      : make_(std::move(make)), recording_(&recording), states_(std::move(states)), steps_(steps) {}
+  PilotClock(Make make, const Recording& recording, Plan plan, RunRequest request, std::size_t steps)
+      : make_(std::move(make)),
+        recording_(&recording),
+        plan_(std::move(plan)),
+        request_(std::move(request)),
+        steps_(steps) {}
 
   double operator()(std::size_t particles) const;
 
  private:
-  void go_along(Filter& filter, std::vector<double>& seconds) const;
-
   Make make_;
   const Recording* recording_;
-  std::vector<Quantity> states_;
+  Plan plan_;
+  RunRequest request_;
   std::size_t steps_;
 };
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "mote/base/refusal.hpp"
+#include "mote/filter/adaptive.hpp"
 
 namespace mote {
 namespace {
@@ -29,14 +30,17 @@ EstimateRow estimated(Step t, const StepReport& report, const Filter& filter, co
   return row;
 }
 
-std::string what_collapsed(const Plan& plan) {
+/// What weighed nothing: those of the step, where their number changes.
+std::string what_collapsed(const Filter& filter, const Plan& plan) {
   if (is_gaussian(plan.filter))
     return "its law gives this step's observation the density zero. Pass a wider model, or --on-collapse keep or "
            "reset.";
+  const auto* adaptive = dynamic_cast<const AdaptiveFilter*>(&filter);
   return fmt::format(
-      "every one of {} particles has weight zero for this step's observation. Pass more --particles, a wider model, or "
-      "--on-collapse keep or reset.",
-      plan.particles);
+      "every one of {} particles has weight zero for this step's observation. Pass {}, a wider model, or --on-collapse "
+      "keep or reset.",
+      adaptive == nullptr ? plan.particles : adaptive->weighed(),
+      adaptive == nullptr ? "more --particles" : "a larger --budget or --most-particles");
 }
 
 /// A filter on its way along a recording.
@@ -94,7 +98,7 @@ class Journey {
     const StepReport report = observed ? filter_.update(t, step.rows) : filter_.predict(t);
     if (report.collapsed && on_collapse_ == OnCollapse::kStop)
       throw Refusal(ExitCode::kCollapsed, fmt::format("{}: t = {}: the filter collapsed: {}", request_.where, t,
-                                                      what_collapsed(state_.record.plan)));
+                                                      what_collapsed(filter_, state_.record.plan)));
     std::vector<EstimateRow>& rows = state_.record.rows;
     rows.push_back(estimated(t, report, filter_, request_, scratch_));
     state_.record.step_seconds += watch.seconds();

@@ -12,8 +12,7 @@
 namespace mote {
 namespace {
 
-constexpr double kMemory = 16;           // steps over which N / ESS is averaged
-constexpr std::size_t kWholeLanes = 64;  // N is a multiple of it: the lanes of any vector
+constexpr double kMemory = 16;  // steps over which N / ESS is averaged
 
 /// The bin of particle i in bins of these widths, as a hash of its coordinates.
 template <class R>

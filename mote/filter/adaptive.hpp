@@ -10,6 +10,8 @@
 
 namespace mote {
 
+constexpr std::size_t kWholeLanes = 64;  ///< numbers that are chosen are multiples of it: the lanes of any vector
+
 /// What decides on the number of particles of a step.
 struct AdaptiveOptions {
   std::size_t least = 64, most = 1000;  ///< N is between them; the first step has the most
@@ -77,6 +79,8 @@ class AdaptiveFilter final : public Filter {
   void keep(Archive& archive) override;
 
   const ParticleCounts& counts() const { return counts_; }
+  /// Particles, or proposals, that the last step weighed; to be asked before select().
+  std::size_t weighed() const { return elastic_->weighed(); }
 
  private:
   void note(const StepReport& report);

@@ -78,6 +78,27 @@ TEST(Budget, ThatNothingKeepsIsAnsweredByTheFewest) {
   EXPECT_FALSE(json["budget"]["fits"].get<bool>());
 }
 
+TEST(Budget, SaysNothingOfTimesThatItDidNotTry) {
+  const Scratch scratch;
+  scratch.shell("mote simulate ungm --steps 5 --out o.csv");
+  scratch.shell("mote run ungm --data o.csv --summary s.json --most-particles 500");
+  const Json budget = Json::parse(scratch.read("s.json"))["budget"];
+  EXPECT_TRUE(budget["fits"].is_null());
+  EXPECT_TRUE(budget["step_seconds"].is_null());
+}
+
+TEST(Budget, NamesItsOwnOptionsInItsRefusals) {
+  const Scratch scratch;
+  scratch.write("far.csv", "t,y\n1,0\n2,1e200\n");
+  const Ended collapsed = scratch.shell("mote run ungm --data far.csv --most-particles 500");
+  EXPECT_EQ(collapsed.code, 4);
+  EXPECT_NE(collapsed.err.find("every one of 500 particles"), std::string::npos) << collapsed.err;
+  EXPECT_NE(collapsed.err.find("Pass a larger --budget or --most-particles"), std::string::npos) << collapsed.err;
+  const Ended large = scratch.shell("ulimit -v 2000000; mote run ungm --data far.csv --most-particles 200000000");
+  EXPECT_EQ(large.code, 2);
+  EXPECT_NE(large.err.find("Pass fewer --most-particles"), std::string::npos) << large.err;
+}
+
 TEST(Budget, CountsBins) {
   const Scratch scratch;
   scratch.shell("mote simulate ungm --steps 20 --out o.csv");

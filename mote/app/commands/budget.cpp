@@ -15,12 +15,6 @@ namespace {
 
 constexpr double kTrialSeconds = 0.1;  // that steps of one number of particles are tried for, about
 
-std::string in_units(double seconds) {
-  if (seconds < 1e-6) return fmt::format("{:.3g} ns", 1e9 * seconds);
-  if (seconds < 1e-3) return fmt::format("{:.3g} us", 1e6 * seconds);
-  return seconds < 1 ? fmt::format("{:.3g} ms", 1e3 * seconds) : fmt::format("{:.3g} s", seconds);
-}
-
 [[noreturn]] void refuse(const Arguments& arguments, const std::string& what, const std::string& expected,
                          const std::string& got, const std::string& next) {
   throw Refusal(ExitCode::kWrongUse, {arguments.where(), what, expected, got, next});
@@ -39,17 +33,17 @@ std::vector<double> bins_from(const Arguments& arguments) {
   return widths;
 }
 
-/// Whether the number of particles is told by the time alone, and can follow it.
+/// Whether the number of particles can follow what is asked for, and nothing else says it.
 void check_what_stands_beside(const Arguments& arguments, const Plan& plan, const std::string& asked) {
   const Engine engine = engine_of(plan);
   if (plan.filter != FilterKind::kSisr && plan.filter != FilterKind::kImh && plan.filter != FilterKind::kAuxiliary)
     refuse(arguments, asked, "--filter sisr, imh or auxiliary, whose number of particles may change",
-           fmt::format("--filter {}", name_of(plan.filter)), "Pass --filter sisr, or --particles.");
+           fmt::format("--filter {}", name_of(plan.filter)), "Pass --filter sisr, or --particles instead.");
   if (engine != Engine::kSimd && engine != Engine::kReference)
     refuse(arguments, asked, "--engine simd or reference", fmt::format("--engine {}", name_of(engine)),
-           "Pass --engine fastest, or --particles.");
+           "Pass --engine fastest, or --particles instead.");
   for (const auto& [option, reason] :
-       {std::pair{"--particles", "which the time says"}, std::pair{"--draws", "since chains keep all that they draw"},
+       {std::pair{"--particles", "which it replaces"}, std::pair{"--draws", "since chains keep all that they draw"},
         std::pair{"--checkpoint", "which keeps no run whose number of particles changes"}})
     if (arguments.given(option))
       refuse(arguments, asked, fmt::format("no {} beside it, {}", option, reason),
@@ -107,12 +101,12 @@ std::unique_ptr<AdaptiveFilter> adaptive_filter(const Budget& budget, const Job&
   return std::make_unique<AdaptiveFilter>(job.model->filter(plan, where), budget.adaptive);
 }
 
-void settle(Budget& budget, const Job& job, Plan& plan, const std::string& where) {
+void settle(Budget& budget, const Job& job, const RunRequest& request, Plan& plan) {
   AdaptiveOptions& a = budget.adaptive;
   const std::size_t states = job.model->states().size();
   if (!a.bins.empty() && a.bins.size() != states)
     throw Refusal(ExitCode::kWrongUse,
-                  {where, "--bins", fmt::format("a width for each of the model's {} states", states),
+                  {request.where, "--bins", fmt::format("a width for each of the model's {} states", states),
                    std::to_string(a.bins.size()), "Write 0 for a state that is not divided."});
   if (!budget.seconds) return;
   const double room = available_memory() / 2;
@@ -121,16 +115,14 @@ void settle(Budget& budget, const Job& job, Plan& plan, const std::string& where
     if (bytes_needed(plan, states) <= room) break;
   }
   a.most = std::max(a.most, a.least);
-  const auto make = [&](std::size_t particles) {
-    Plan trial = plan;
-    trial.particles = particles;
+  const auto make = [&](const Plan& trial) {
     Budget fixed = budget;
-    fixed.adaptive.least = fixed.adaptive.most = particles;
-    return adaptive_filter(fixed, job, trial, where);
+    fixed.adaptive.least = fixed.adaptive.most = trial.particles;
+    return adaptive_filter(fixed, job, trial, request.where);
   };
   const auto steps = static_cast<std::size_t>(std::clamp(kTrialSeconds / *budget.seconds, 8.0, 100.0));
   const Affordable found =
-      affordable(*budget.seconds, a.least, a.most, PilotClock(make, job.recording, job.model->states(), steps));
+      affordable(*budget.seconds, a.least, a.most, PilotClock(make, job.recording, plan, request, steps));
   a.most = plan.particles = found.particles;
   budget.step_seconds = found.step_seconds;
   budget.fits = found.fits;
@@ -143,7 +135,7 @@ nlohmann::json budget_json(const Budget& budget, const ParticleCounts& counts) {
           {"least_particles", budget.adaptive.least},
           {"mc_error", budget.adaptive.error},
           {"step_seconds", budget.seconds ? Json(budget.step_seconds) : Json(nullptr)},
-          {"fits", budget.fits},
+          {"fits", budget.seconds ? Json(budget.fits) : Json(nullptr)},
           {"particles", {{"least", counts.least}, {"mean", counts.mean()}, {"most", counts.most}}},
           {"replay", fmt::format("--most-particles {}", budget.adaptive.most)}};
 }

@@ -26,16 +26,16 @@ std::vector<OptionSpec> budget_options();
 /// error   Refusal (kWrongUse): no time, a filter or engine whose number of particles stays, what contradicts it
 std::optional<Budget> budget_from(const Arguments& arguments, Plan& plan);
 
-/// Tries how many particles the time allows, if none are told, and sets the plan's.
+/// Tries how many particles the time allows a run of the request, if none are told, and sets the plan's.
 ///
 /// error   Refusal (kWrongUse): bins for another number of states
-void settle(Budget& budget, const Job& job, Plan& plan, const std::string& where);
+void settle(Budget& budget, const Job& job, const RunRequest& request, Plan& plan);
 
 /// A filter of the plan whose number of particles follows its weights.
 std::unique_ptr<AdaptiveFilter> adaptive_filter(const Budget& budget, const Job& job, const Plan& plan,
                                                 const std::string& where);
 
-/// seconds, most_particles, least_particles, mc_error, step_seconds, fits, particles {least, mean, most}, replay.
+/// seconds, most_particles, least_particles, mc_error, step_seconds, fits (null: nothing was tried), particles {least, mean, most}, replay.
 nlohmann::json budget_json(const Budget& budget, const ParticleCounts& counts);
 
 /// The same as a line.

@@ -64,14 +64,14 @@ RunRequest request_for(const Job& job, const std::vector<std::string>& estimates
   return request;
 }
 
-void check_memory(const Plan& plan, const Job& job, const std::string& where) {
+void check_memory(const Plan& plan, const Job& job, const std::string& where, const std::string& option) {
   const double need = bytes_needed(plan, job.model->states().size());
   const double have = available_memory();
   if (need <= have) return;
   throw Refusal(
       ExitCode::kWrongUse,
-      {where, "--particles", fmt::format("particles that fit into the {:.1f} GB of memory there are", have / 1e9),
-       fmt::format("{}, which need {:.1f} GB", plan.particles, need / 1e9), "Pass fewer --particles."});
+      {where, option, fmt::format("particles that fit into the {:.1f} GB of memory there are", have / 1e9),
+       fmt::format("{}, which need {:.1f} GB", plan.particles, need / 1e9), fmt::format("Pass fewer {}.", option)});
 }
 
 RunRecord run_job(const Job& job, const Plan& plan, const RunRequest& request, const std::string& where) {

@@ -26,8 +26,9 @@ Job load_job(const std::string& model, const std::string& data_path, const std::
 /// A request for the job's states and the functions asked for.
 RunRequest request_for(const Job& job, const std::vector<std::string>& estimates, const std::string& where);
 
-/// Refuses a plan that needs more memory than there is (Refusal, kWrongUse).
-void check_memory(const Plan& plan, const Job& job, const std::string& where);
+/// Refuses a plan that needs more memory than there is (Refusal, kWrongUse); `option` said its particles.
+void check_memory(const Plan& plan, const Job& job, const std::string& where,
+                  const std::string& option = "--particles");
 
 /// Runs the plan on its engine.
 ///

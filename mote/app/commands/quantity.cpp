@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "mote/app/files/text.hpp"
 #include "mote/base/refusal.hpp"
 
 namespace mote {
 namespace {
+
+constexpr Unit kShown[] = {{"s", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}};  // the largest first
 
 std::string names_of(std::span<const Unit> units) {
   std::string names;
@@ -30,6 +34,12 @@ double quantity_from(const Arguments& arguments, const std::string& option, std:
                   {arguments.where(), option, "a number above 0 with its unit (" + names_of(units) + ")",
                    in_quotes(given), "Pass " + option + " " + example + "."});
   return *number * unit->size;
+}
+
+std::string in_units(double seconds) {
+  const Unit* shown = std::begin(kShown);
+  while (shown + 1 != std::end(kShown) && seconds < 0.9995 * shown->size) ++shown;  // 999.5 us is shown as 1 ms
+  return fmt::format("{:.3g} {}", seconds / shown->size, shown->name);
 }
 
 }  // namespace mote

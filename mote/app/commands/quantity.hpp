@@ -2,6 +2,7 @@
 /// Quantities on the command line: a number with its unit, "1ms", "100 mW".
 
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "mote/app/commands/command.hpp"
@@ -23,5 +24,8 @@ inline constexpr Unit kPowers[] = {{"mW", 1}, {"uW", 1e-3}, {"W", 1e3}};
 /// error   Refusal (kWrongUse) for no number above 0 with one of the units
 double quantity_from(const Arguments& arguments, const std::string& option, std::span<const Unit> units,
                      const std::string& example);
+
+/// A time, seconds, in the unit that leaves a number of 1 to 1000: "1.25 ms".
+std::string in_units(double seconds);
 
 }  // namespace mote

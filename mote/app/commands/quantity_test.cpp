@@ -34,5 +34,15 @@ TEST(Quantity, RefusesEverythingElseInOneSentence) {
   }
 }
 
+TEST(Quantity, IsShownInTheUnitThatFits) {
+  EXPECT_EQ(in_units(2), "2 s");
+  EXPECT_EQ(in_units(1e-3), "1 ms");
+  EXPECT_EQ(in_units(1.2345e-4), "123 us");
+  EXPECT_EQ(in_units(9.996e-4), "1 ms");
+  EXPECT_EQ(in_units(9.99e-4), "999 us");
+  EXPECT_EQ(in_units(5e-8), "50 ns");
+  EXPECT_EQ(in_units(0), "0 ns");
+}
+
 }  // namespace
 }  // namespace mote
