@@ -6,6 +6,7 @@
 
 #include "mote/analog/tape.hpp"
 #include "mote/filter/weigh.hpp"
+#include "mote/graph/drawn.hpp"
 
 namespace mote::analog {
 
@@ -30,12 +31,12 @@ class MixedModel {
 
   template <class S, class D>
   State<S> initial(D& draw) const {
-    const auto draws = drawn(shared_->recorded.prior_draws, draw);
+    const auto draws = graph::drawn<double>(shared_->recorded.prior_draws, draw);
     return computed(shared_->initial, {.draws = draws.data()});
   }
   template <class S, class D>
   State<S> next(Step t, const State<S>& before, D& draw) const {
-    const auto draws = drawn(shared_->recorded.draws, draw);
+    const auto draws = graph::drawn<double>(shared_->recorded.draws, draw);
     return computed(shared_->next,
                     {.before = before.data(), .schedule = shared_->schedule_at(t), .draws = draws.data()});
   }
@@ -90,12 +91,6 @@ class MixedModel {
     Step step = -1;
   };
 
-  template <class D>
-  static SmallVector<double> drawn(const std::vector<bool>& normal, D& draw) {
-    SmallVector<double> all;
-    for (const bool is_normal : normal) all.push_back(is_normal ? draw.normal() : draw.uniform());
-    return all;
-  }
   SmallVector<double> computed(Tape& tape, const TapeInputs& inputs) const {
     SmallVector<double> x(shared_->recorded.states.size());
     tape.run(shared_->arithmetic, inputs, x.data());

@@ -26,8 +26,8 @@ using StepClock = std::function<double(std::size_t particles)>;
 /// shape   1 <= least <= most
 Affordable affordable(double seconds, std::size_t least, std::size_t most, const StepClock& clock);
 
-/// A clock that runs filters along a recording as a run does, estimates included: the 0.9 quantile of some steps' times;
-/// infinity when the run is told to stop.
+/// A clock that runs filters along a recording as a run does, estimates included: the 0.9 quantile of some steps'
+/// times; infinity when the run is told to stop.
 ///
 /// shape   steps >= 1; a recording that is shorter, but not empty, is gone along again by a new filter
 class PilotClock {

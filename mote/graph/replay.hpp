@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "mote/graph/drawn.hpp"
 #include "mote/graph/fixed.hpp"
 #include "mote/graph/interval.hpp"
 #include "mote/graph/record.hpp"
@@ -70,12 +71,12 @@ class Replayed {
 
   template <class S, class D>
   State<S> initial(D& draw) const {
-    const auto numbers = drawn(shared_->recorded.prior_draws, draw);
+    const auto numbers = drawn<double>(shared_->recorded.prior_draws, draw);
     return shared_->run(shared_->initial, shared_->recorded.initial, [&](const Vertex& v) { return numbers[v.index]; });
   }
   template <class S, class D>
   State<S> next(Step t, const State<S>& before, D& draw) const {
-    const auto numbers = drawn(shared_->recorded.draws, draw);
+    const auto numbers = drawn<double>(shared_->recorded.draws, draw);
     shared_->go_to(t);
     return shared_->run(shared_->next, shared_->recorded.next, [&](const Vertex& v) {
       return v.role == Role::kBefore     ? before[v.index]
@@ -139,13 +140,6 @@ class Replayed {
     std::vector<double> schedule;
     Step step = -1;
   };
-
-  template <class D>
-  static SmallVector<double> drawn(const std::vector<bool>& normal, D& draw) {
-    SmallVector<double> all;
-    for (const bool is_normal : normal) all.push_back(is_normal ? draw.normal() : draw.uniform());
-    return all;
-  }
 
   std::shared_ptr<Shared> shared_;
 };

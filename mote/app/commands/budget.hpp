@@ -35,7 +35,8 @@ void settle(Budget& budget, const Job& job, const RunRequest& request, Plan& pla
 std::unique_ptr<AdaptiveFilter> adaptive_filter(const Budget& budget, const Job& job, const Plan& plan,
                                                 const std::string& where);
 
-/// seconds, most_particles, least_particles, mc_error, step_seconds, fits (null: nothing was tried), particles {least, mean, most}, replay.
+/// seconds, most_particles, least_particles, mc_error, step_seconds, fits (null: nothing was tried), particles {least,
+/// mean, most}, replay.
 nlohmann::json budget_json(const Budget& budget, const ParticleCounts& counts);
 
 /// The same as a line.

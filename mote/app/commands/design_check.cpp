@@ -6,6 +6,7 @@
 #include "mote/app/commands/command.hpp"
 #include "mote/app/design/check.hpp"
 #include "mote/app/files/output.hpp"
+#include "mote/app/files/text.hpp"
 #include "mote/app/terminal/progress.hpp"
 #include "mote/software/threads.hpp"
 
@@ -14,30 +15,51 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// One kind of prediction, and how far it may be off.
+/// What was found of one kind of prediction.
 struct Part {
   std::string name;
-  double bound;  ///< on |measured / predicted - 1|
   std::vector<PredictionCheck> checks;
 };
 
-bool keeps(const PredictionCheck& check, double bound) { return std::abs(check.ratio - 1) <= bound; }
+/// One kind of prediction.
+struct PartKind {
+  std::string name;
+  std::size_t measurements;
+  std::function<std::vector<PredictionCheck>(const CheckProgress&)> check;
+};
 
-/// What is asked of each of the checks: of a circuit's step that the law is exact, of its run 3 %.
-double bound_of(const Part& part, const PredictionCheck& check) {
-  return check.what.find("imh") != std::string::npos && part.name == "circuit" ? 1e-12 : part.bound;
+/// All of them; the outside tools' first, so that a tool that is missing costs no wait.
+std::vector<PartKind> part_kinds(const ThreadsCheck& threads, const std::string& where) {
+  return {{"circuit", circuits_checked(), [=](const CheckProgress& ran) { return check_circuits(where, ran); }},
+          {"cluster", clusters_checked(), [=](const CheckProgress& ran) { return check_clusters(where, ran); }},
+          {"threads", measurements_of(threads),
+           [=](const CheckProgress& ran) { return check_threads(threads, where, ran); }}};
+}
+
+/// Those that are asked for, in their own order; all of them if none is.
+std::vector<PartKind> asked_for(const Arguments& arguments, std::vector<PartKind> kinds) {
+  const std::vector<std::string> asked = arguments.list("PART");
+  const auto named = [&](const std::string& name) {
+    return std::any_of(kinds.begin(), kinds.end(), [&](const PartKind& kind) { return kind.name == name; });
+  };
+  for (const std::string& name : asked)
+    if (!named(name))
+      throw Refusal(ExitCode::kWrongUse, {arguments.where(), "PART", "one of threads, circuit, cluster",
+                                          in_quotes(name), "Name none for all of them."});
+  if (!asked.empty())
+    std::erase_if(kinds, [&](const PartKind& kind) { return std::count(asked.begin(), asked.end(), kind.name) == 0; });
+  return kinds;
 }
 
 std::string check_text(const std::vector<Part>& parts) {
   std::string text =
       fmt::format("{:<9}{:<52}{:>12}{:>12}{:>9}{:>9}\n", "", "", "predicted", "measured", "ratio", "within");
   for (const Part& part : parts)
-    for (const PredictionCheck& check : part.checks) {
-      const double bound = bound_of(part, check);
+    for (const PredictionCheck& check : part.checks)
       text += fmt::format("{:<9}{:<52}{:>12.6g}{:>12.6g}{:>9.4f}{:>9}{}\n", part.name, check.what, check.predicted,
-                          check.measured, check.ratio, bound < 1e-9 ? "exact" : fmt::format("{:.0f} %", 100 * bound),
-                          keeps(check, bound) ? "" : "  off");
-    }
+                          check.measured, check.ratio,
+                          check.bound < 1e-9 ? "exact" : fmt::format("{:.0f} %", 100 * check.bound),
+                          check.keeps() ? "" : "  off");
   return text;
 }
 
@@ -49,37 +71,27 @@ Json check_json(const std::vector<Part>& parts) {
                                 {"predicted", check.predicted},
                                 {"measured", check.measured},
                                 {"ratio", check.ratio},
-                                {"bound", bound_of(part, check)},
-                                {"keeps", keeps(check, bound_of(part, check))}});
+                                {"bound", check.bound},
+                                {"keeps", check.keeps()}});
   return all;
 }
 
 ExitCode run_check(const Arguments& arguments) {
-  const std::vector<std::string> names{"threads", "circuit", "cluster"};
-  std::vector<std::string> asked = arguments.list("PART");
-  for (const std::string& name : asked)
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      throw Refusal(ExitCode::kWrongUse, {arguments.where(), "PART", fmt::format("one of {}", fmt::join(names, ", ")),
-                                          "\"" + name + "\"", "Name none for all of them."});
-  if (asked.empty()) asked = names;
-  const auto wants = [&](const char* name) { return std::find(asked.begin(), asked.end(), name) != asked.end(); };
   ThreadsCheck threads;
   threads.particles = static_cast<std::size_t>(arguments.integer("--particles", 1000, 10'000'000));
   threads.rounds = static_cast<int>(arguments.integer("--rounds", 1, 1000));
   threads.most_threads =
       arguments.given("--threads") ? static_cast<std::size_t>(arguments.integer("--threads", 1, 4096)) : cores();
+  const std::vector<PartKind> kinds = asked_for(arguments, part_kinds(threads, arguments.where()));
   OutputSet outputs;
   Output* json = outputs.open(arguments.text("--json"));
   std::vector<Part> parts;
   {
     Progress progress("measurements");
     std::size_t done = 0;
-    const std::size_t all = (wants("threads") ? measurements_of(threads) : 0) +
-                            (wants("circuit") ? kCircuitsChecked : 0) + (wants("cluster") ? kClustersChecked : 0);
-    const CheckProgress ran = [&] { progress.update(++done, all); };
-    if (wants("threads")) parts.push_back({"threads", 0.15, check_threads(threads, arguments.where(), ran)});
-    if (wants("circuit")) parts.push_back({"circuit", 0.03, check_circuits(arguments.where(), ran)});
-    if (wants("cluster")) parts.push_back({"cluster", 0.1, check_clusters(arguments.where(), ran)});
+    std::size_t all = 0;
+    for (const PartKind& kind : kinds) all += kind.measurements;
+    for (const PartKind& kind : kinds) parts.push_back({kind.name, kind.check([&] { progress.update(++done, all); })});
   }
   if (json != nullptr) json->write(check_json(parts).dump(2) + "\n");
   outputs.commit();

@@ -1,4 +1,3 @@
-#include "mote/app/commands/inputs.hpp"
 #include "mote/app/commands/run.hpp"
 
 #include <algorithm>
@@ -14,6 +13,7 @@
 #include "mote/app/commands/budget.hpp"
 #include "mote/app/commands/checkpoint_options.hpp"
 #include "mote/app/commands/command.hpp"
+#include "mote/app/commands/inputs.hpp"
 #include "mote/app/commands/job.hpp"
 #include "mote/app/commands/plan_options.hpp"
 #include "mote/app/files/output.hpp"

@@ -1,6 +1,7 @@
 #pragma once
 /// Predicted against measured: how well the figures hold that designs are chosen by.
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -12,6 +13,9 @@ struct PredictionCheck {
   std::string what;
   double predicted = 0, measured = 0;
   double ratio = 0;  ///< measured over predicted; of several rounds their median
+  double bound = 0;  ///< asked of |ratio - 1|
+
+  bool keeps() const { return std::abs(ratio - 1) <= bound; }
 };
 
 /// Told after every measurement.
@@ -40,12 +44,14 @@ std::size_t measurements_of(const ThreadsCheck& check);
 ///
 /// error   Refusal (kOutsideTool) without Verilator
 std::vector<PredictionCheck> check_circuits(const std::string& where, const CheckProgress& progress);
-inline constexpr std::size_t kCircuitsChecked = 4;
+/// Measurements of that.
+std::size_t circuits_checked();
 
 /// Milliseconds of a step on clusters, by the exact schedule of its blocks and messages; simulated by SimGrid.
 ///
 /// error   Refusal (kOutsideTool) without SimGrid
 std::vector<PredictionCheck> check_clusters(const std::string& where, const CheckProgress& progress);
-extern const std::size_t kClustersChecked;
+/// Measurements of that.
+std::size_t clusters_checked();
 
 }  // namespace mote

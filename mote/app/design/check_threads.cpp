@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "mote/app/catalogue/scene.hpp"
+#include "mote/app/compare/statistics.hpp"
 #include "mote/app/design/check.hpp"
 #include "mote/engine/run.hpp"
 
@@ -13,6 +14,7 @@ namespace {
 constexpr std::array<const char*, 3> kModels{"ungm", "bearings", "doa"};
 constexpr long long kFrame = 3;  // directions of a frame of doa
 constexpr int kRuns = 3;         // of which the quickest counts
+constexpr double kThreadsBound = 0.15;
 constexpr double kEnough = 2e6;  // particles moved in a run
 
 std::vector<std::size_t> thread_counts(std::size_t most) {
@@ -22,11 +24,7 @@ std::vector<std::size_t> thread_counts(std::size_t most) {
   return all;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+using compare::median;
 
 /// A model's steps on a number of threads, by rounds.
 struct Rounds {
@@ -106,7 +104,7 @@ std::vector<PredictionCheck> check_threads(const ThreadsCheck& check, const std:
     const Rounds& best = rounds[chosen];
     all.push_back({fmt::format("{}, sisr, N = {}, {} thread{}: a step, us", model, check.particles, threads[chosen],
                                threads[chosen] == 1 ? "" : "s"),
-                   1e6 * median(best.predicted), 1e6 * median(best.measured), median(best.ratios)});
+                   1e6 * median(best.predicted), 1e6 * median(best.measured), median(best.ratios), kThreadsBound});
   }
   return all;
 }

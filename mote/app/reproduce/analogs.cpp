@@ -2,6 +2,7 @@
 
 #include "mote/analog/spice.hpp"
 #include "mote/app/analog/characterisation.hpp"
+#include "mote/app/reproduce/answers.hpp"
 #include "mote/base/refusal.hpp"
 
 namespace mote::reproduce {
@@ -53,13 +54,7 @@ const Analogs::Answer& Analogs::answer(const std::string& run, const std::functi
 }
 
 double Analogs::figure(const Comparison& c, std::size_t side, const std::function<void()>& ran) {
-  const nlohmann::json& figures = answer(c.runs[side], ran).figures;
-  const nlohmann::json::json_pointer place("/" + c.key);
-  const nlohmann::json value = figures.contains(place) ? figures.at(place) : nlohmann::json();
-  if (value.is_boolean()) return value.get<bool>() ? 1 : 0;
-  if (value.is_number()) return value.get<double>();
-  throw Refusal(ExitCode::kBadData, {c.where, "\"key\"", "a path in the JSON of the item's command to one value",
-                                     "\"" + c.key + "\"", "arctan/0/rms_percent is one of mote analog characterise."});
+  return answer_at(answer(c.runs[side], ran).figures, c, "mote analog characterise", "arctan/0/rms_percent");
 }
 
 report::Chart Analogs::chart(const Figure& figure, const std::function<void()>& ran) {

@@ -4,17 +4,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "mote/base/numbers.hpp"
-#include "mote/base/refusal.hpp"
+#include "mote/app/reproduce/answers.hpp"
 
 namespace mote::reproduce {
 namespace {
 
-/// What stands at a path "cases/A/time".
-nlohmann::json found_at(const DesignReport& report, const std::string& key) {
-  const nlohmann::json all = design_json(report);
-  const nlohmann::json::json_pointer place("/" + key);
-  return all.contains(place) ? all.at(place) : nlohmann::json::object();
+double answer(const DesignReport& report, const Comparison& c) {
+  return answer_at(design_json(report), c, "mote design optimise", "cases/A/time");
 }
 
 }  // namespace
@@ -26,17 +22,12 @@ Designs::Designs(const Item& item) {
     reports_.emplace_back(run.name,
                           design_report(design_request_from(arguments_from(run.where, design_options(), words))));
   }
-  for (const Comparison& c : item.comparisons)
-    if (const auto value = found_at(reports_.front().second, c.key); value.is_structured())
-      throw Refusal(ExitCode::kBadData, {c.where, "\"key\"", "a path in the JSON of mote design optimise to one value",
-                                         "\"" + c.key + "\"", "cases/A/time is one."});
+  for (const Comparison& c : item.comparisons) answer(reports_.front().second, c);  // refuses wrong keys
 }
 
 double Designs::figure(const Comparison& c, std::size_t side) const {
   const auto named = [&](const auto& entry) { return entry.first == c.runs[side]; };
-  const auto value = found_at(std::find_if(reports_.begin(), reports_.end(), named)->second, c.key);
-  if (value.is_boolean()) return value.get<bool>() ? 1 : 0;
-  return value.is_number() ? value.get<double>() : kNaN;
+  return answer(std::find_if(reports_.begin(), reports_.end(), named)->second, c);
 }
 
 std::vector<DesignCurve> Designs::curves(const Figure& figure) const {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "mote/base/refusal.hpp"
+#include "mote/graph/drawn.hpp"
 #include "mote/graph/interpreter.hpp"
 #include "mote/graph/text/text_file.hpp"
 
@@ -139,12 +140,6 @@ class TextModel {
   };
 
  private:
-  template <class S, class D>
-  static SmallVector<S> drawn(const std::vector<bool>& normal, D& draw) {
-    SmallVector<S> all;
-    for (const bool is_normal : normal) all.push_back(S(is_normal ? draw.normal() : draw.uniform()));
-    return all;
-  }
   template <class S>
   State<S> state_from(const Program& program, Step t, const Sources<S>& sources) const {
     State<S> x(parts_->states.size());
