@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "mote/base/log_gamma.hpp"
 #include "mote/base/numbers.hpp"
 
 namespace mote {
@@ -43,7 +44,7 @@ template <class S>
 S student_log_density(const S& residual, double scale, double dof) {
   using namespace numbers;
   const double constant =
-      std::lgamma((dof + 1) / 2) - std::lgamma(dof / 2) - 0.5 * std::log(dof * kPi) - std::log(scale);
+      log_gamma((dof + 1) / 2) - log_gamma(dof / 2) - 0.5 * std::log(dof * kPi) - std::log(scale);
   return S(constant) - S((dof + 1) / 2) * log(S(1) + residual * residual * S(1 / (dof * scale * scale)));
 }
 

@@ -174,7 +174,7 @@ struct Doa {
     const S delta = mahalanobis(e);
     if (p.dof <= 0) return S(-0.5) * delta - S(half_log_det + 0.5 * n * std::log(2 * kPi));
     const double v = p.dof;
-    const double constant = std::lgamma((v + n) / 2) - std::lgamma(v / 2) - 0.5 * n * std::log(v * kPi) - half_log_det;
+    const double constant = log_gamma((v + n) / 2) - log_gamma(v / 2) - 0.5 * n * std::log(v * kPi) - half_log_det;
     return S(constant) - S((v + n) / 2) * log(S(1) + delta * S(1 / v));
   }
 
