@@ -59,11 +59,8 @@ void MixedArithmetic::choose_gains(const Placement& placement, const Design& des
                       : parts_[id] == Part::kCurrents && is_mirror(graph, v) ? design.cells.product_gain
                                                                              : 0;
     if (cells) gains_[id] = 1 + sd * z;
-    if (parts_[id] != Part::kGaussian && parts_[id] != Part::kSquare) return;
-    const Vertex& input = graph[v.args[0]];
-    for (const Id arg : input.operands())
-      if (graph.is_constant(arg) && parts_[v.args[0]] == Part::kCurrents)
-        widths_[id] = std::hypot(1, rms * graph[arg].value);
+    if (placement.behind_arctan[id])
+      widths_[id] = std::hypot(1, rms * inverse_sigma(placement, static_cast<Id>(id)).value_or(0));
   });
 }
 

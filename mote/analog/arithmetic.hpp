@@ -28,7 +28,8 @@ class MixedArithmetic {
   }
   /// Whether an operation is that of the graph: digital, or currents that neither cross nor are scaled.
   bool is_exact(graph::Id id) const {
-    return parts_[id] == Part::kDigital || (parts_[id] == Part::kCurrents && crossings_[id] == 0 && gains_[id] == 1);
+    return parts_[id] == Part::kDigital || parts_[id] == Part::kMemory ||
+           (parts_[id] == Part::kCurrents && crossings_[id] == 0 && gains_[id] == 1);
   }
   /// An operation that is not exact.
   double compute(graph::Id id, const graph::Vertex& vertex, const std::array<double, 4>& operands);

@@ -19,6 +19,11 @@ enum class Function {
   kGaussian  ///< y = exp(-x^2 / 2)
 };
 
+/// I_a of the tracker's circuits in ampere; the Gaussian's stands for sigma_r = 0.29 degrees.
+///
+/// source  MIXED, Table III
+constexpr double table3_current(Function function) { return function == Function::kArctan ? 10e-9 : 0.1e-9; }
+
 /// How much of the transistors a simulation has.
 enum class Level {
   kIdeal,     ///< the MITE law and perfect mirrors
@@ -65,8 +70,10 @@ class Curve {
   double per_unit_ = 0, last_ = 0;
 };
 
-/// What ln I of each device deviates by on a die: normal numbers of these standard deviations, drawn at (seed, die).
-std::vector<double> deviations_of_die(const std::vector<double>& sds, std::uint64_t seed, std::uint32_t die);
+/// What ln I of each device of a circuit deviates by on a die: normal numbers of these standard deviations, drawn at
+/// (seed, die), each circuit's in a stream of its own.
+std::vector<double> deviations_of_die(Function function, const std::vector<double>& sds, std::uint64_t seed,
+                                      std::uint32_t die);
 
 /// How a device's current differs between dies, and what it does to the output.
 struct Sensitivity {
