@@ -65,6 +65,7 @@ Behaviour::Behaviour(Facts facts, Curve transfer, Curve power, Curve noise, std:
     const double error = transfer_(at(k, kSteps)) - exact(facts_.function, at(k, kSteps));
     squares += error * error;
     facts_.worst = std::max(facts_.worst, std::abs(error));
+    noisy_ = noisy_ || noise_sd(at(k, kSteps)) > 0;
   }
   facts_.rms = std::sqrt(squares / (kSteps + 1));
 }

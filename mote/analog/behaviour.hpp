@@ -4,6 +4,7 @@
 // more.
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -102,6 +103,13 @@ class Behaviour {
 
   /// y at x = I_in / I_a, without noise.
   double operator()(double x) const { return transfer_(x); }
+  /// y with noise, for a standard normal number; NaN stays NaN.
+  double noisy_at(double x, double normal) const {
+    if (std::isnan(x)) return x;
+    return noisy_ ? transfer_(x) + noise_sd(x) * normal : transfer_(x);
+  }
+  /// Whether there is any noise.
+  bool noisy() const { return noisy_; }
   /// Standard deviation of the noise of y: shot noise of every device in the circuit's own bandwidth.
   double noise_sd(double x) const { return std::max(0.0, noise_(x)); }
   /// Power drawn from the supply, in watt.
@@ -124,6 +132,7 @@ class Behaviour {
  private:
   Facts facts_;
   Curve transfer_, power_, noise_;
+  bool noisy_ = false;
   std::vector<Sensitivity> devices_;
 };
 
