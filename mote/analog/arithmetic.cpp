@@ -20,7 +20,35 @@ bool is_mirror(const graph::Graph& graph, const Vertex& v) {
   return constant && !turns;
 }
 
+/// Normal numbers that a converter or a circuit takes.
+template <class P>
+std::size_t taken_by(const P& part) {
+  return part.noisy() ? 1 : 0;
+}
+template <class P>
+double normal_for(const P& part, const Normals& noise, std::size_t k, std::size_t i) {
+  return part.noisy() ? noise(k, i) : 0;
+}
+
+using Kernel = void (*)(const Columns&, double, std::size_t, double*);
+
+template <Op op>
+void each(const Columns& a, double gain, std::size_t count, double* out) {
+  for (std::size_t i = 0; i < count; ++i)
+    out[i] = gain * graph::apply<double>(op, {a[0][i], a[1][i], a[2][i], a[3][i]});
+}
+
+/// By operation.
+constexpr auto kKernels = []<std::size_t... k>(std::index_sequence<k...>) {
+  return std::array<Kernel, sizeof...(k)>{&each<static_cast<Op>(k)>...};
+}
+(std::make_index_sequence<static_cast<std::size_t>(Op::kSelect) + 1>());
+
 }  // namespace
+
+void apply_all(Op op, const Columns& operands, double gain, std::size_t count, double* out) {
+  kKernels[static_cast<std::size_t>(op)](operands, gain, count, out);
+}
 
 MixedArithmetic::MixedArithmetic(const Placement& placement, const Design& design)
     : parts_(placement.parts),
@@ -59,72 +87,85 @@ void MixedArithmetic::choose_gains(const Placement& placement, const Design& des
                       : parts_[id] == Part::kCurrents && is_mirror(graph, v) ? design.cells.product_gain
                                                                              : 0;
     if (cells) gains_[id] = 1 + sd * z;
-    if (parts_[id] != Part::kGaussian && parts_[id] != Part::kSquare) return;
-    const Vertex& input = graph[v.args[0]];
-    for (const Id arg : input.operands())
-      if (graph.is_constant(arg) && parts_[v.args[0]] == Part::kCurrents)
-        widths_[id] = std::hypot(1, rms * graph[arg].value);
+    if (placement.behind_arctan[id])
+      widths_[id] = std::hypot(1, rms * inverse_sigma(placement, static_cast<Id>(id)).value_or(0));
   });
 }
 
-double MixedArithmetic::compute(Id id, const Vertex& vertex, const std::array<double, 4>& operands) {
+std::size_t MixedArithmetic::normals(Id id) const {
+  const std::size_t of_adc = to_digital_[id] ? 1 : 0;
   switch (parts_[id]) {
-    case Part::kArctan: {
-      const bool quotient = vertex.op == Op::kAtan;
-      return digitised(id, angle_adc_, arctan(operands[0], quotient ? 1 : operands[1], divider_gain_, true));
-    }
-    case Part::kGaussian: {
-      const bool crosses = method_ == Method::kWeights && crossings_[id] != 0;
-      const double x = crosses ? input_dac_(operands[0], normal_for(input_dac_)) : operands[0];
-      return gaussian(id, x / widths_[id]);
-    }
-    case Part::kSquare: {
-      const double x = operands[0] / widths_[id];
-      return -0.5 * gains_[id] * x * x + comparator_noise_ * normal();
-    }
+    case Part::kArctan:
+      return taken_by(quotient_dac_) + taken_by(*arctan_) + of_adc * taken_by(angle_adc_);
+    case Part::kGaussian:
+      return taken_by(input_dac_) + taken_by(*gaussian_) + of_adc * taken_by(weight_adc_);
+    case Part::kSquare:
+      return 1;
+    default:
+      return crossings_[id] == 0 ? 0 : taken_by(angle_dac_);
+  }
+}
+
+void MixedArithmetic::compute(Id id, const Vertex& vertex, const Columns& operands, const Normals& noise,
+                              std::size_t count, double* out) {
+  switch (parts_[id]) {
+    case Part::kArctan:
+      return arctans(id, vertex, operands, noise, count, out);
+    case Part::kGaussian:
+      return gaussians(id, operands[0], noise, count, out);
+    case Part::kSquare:
+      for (std::size_t i = 0; i < count; ++i) {
+        const double x = operands[0][i] / widths_[id];
+        out[i] = -0.5 * gains_[id] * x * x + comparator_noise_ * noise(0, i);
+      }
+      return;
     default:
       break;
   }
-  std::array<double, 4> values = operands;
-  for (std::size_t k = 0; k < graph::arity(vertex.op); ++k)
-    if ((crossings_[id] >> k & 1U) != 0) values[k] = crossing(id, values[k]);
-  return gains_[id] * graph::apply<double>(vertex.op, values);
+  std::array<std::array<double, kTile>, 4> crossed;
+  Columns values = operands;
+  for (std::size_t k = 0; k < graph::arity(vertex.op); ++k) {
+    if ((crossings_[id] >> k & 1U) == 0) continue;
+    for (std::size_t i = 0; i < count; ++i) crossed[k][i] = crossing(id, operands[k][i], noise(0, i));
+    values[k] = crossed[k].data();
+  }
+  apply_all(vertex.op, values, gains_[id], count, out);
 }
 
-double MixedArithmetic::gaussian(Id id, double x) {
-  return std::max(0.0, digitised(id, weight_adc_, circuit(*gaussian_, x, true)));
+void MixedArithmetic::arctans(Id id, const Vertex& vertex, const Columns& operands, const Normals& noise,
+                              std::size_t count, double* out) const {
+  const bool quotient = vertex.op == Op::kAtan;
+  const std::size_t of_arctan = taken_by(quotient_dac_);
+  const std::size_t of_adc = of_arctan + taken_by(*arctan_);
+  for (std::size_t i = 0; i < count; ++i)
+    out[i] = in_the_plane(operands[0][i], quotient ? 1 : operands[1][i], [&](double q) {
+      const double in = method_ == Method::kWeights ? quotient_dac_(q, normal_for(quotient_dac_, noise, 0, i)) : q;
+      return arctan_->noisy_at(in, normal_for(*arctan_, noise, of_arctan, i));
+    });
+  if (!to_digital_[id]) return;
+  for (std::size_t i = 0; i < count; ++i) out[i] = angle_adc_(out[i], normal_for(angle_adc_, noise, of_adc, i));
 }
 
-double MixedArithmetic::circuit(const Behaviour& behaviour, double x, bool noisy) const {
-  if (std::isnan(x)) return x;
-  const double y = behaviour(x);
-  return noisy && draw_ != nullptr ? y + behaviour.noise_sd(x) * draw_->normal() : y;
-}
-
-double MixedArithmetic::digitised(Id id, const Converter& adc, double value) const {
-  return to_digital_[id] ? adc(value, normal_for(adc)) : value;
-}
-
-double MixedArithmetic::arctan(double y, double x, double gain, bool noisy) const {
-  const double most = method_ == Method::kWeights ? 1 : kRange;
-  const bool steep = std::abs(y) > most * std::abs(x);
-  const double below = steep ? y : x;
-  double q = below == 0 ? 0 : gain * (steep ? x : y) / below;
-  if (method_ == Method::kWeights && noisy) q = quotient_dac_(q, normal_for(quotient_dac_));
-  const double angle = circuit(*arctan_, q, noisy);
-  if (steep) return (y > 0 ? kPi / 2 : -kPi / 2) - angle;
-  return x < 0 ? angle + (y < 0 ? -kPi : kPi) : angle;
+void MixedArithmetic::gaussians(Id id, const double* x, const Normals& noise, std::size_t count, double* out) const {
+  const bool crosses = method_ == Method::kWeights && crossings_[id] != 0;
+  const std::size_t of_gaussian = taken_by(input_dac_);
+  const std::size_t of_adc = of_gaussian + taken_by(*gaussian_);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double in = crosses ? input_dac_(x[i], normal_for(input_dac_, noise, 0, i)) : x[i];
+    const double y = gaussian_->noisy_at(in / widths_[id], normal_for(*gaussian_, noise, of_gaussian, i));
+    out[i] = std::max(0.0, to_digital_[id] ? weight_adc_(y, normal_for(weight_adc_, noise, of_adc, i)) : y);
+  }
 }
 
 double MixedArithmetic::transferred(double angle_rad) const {
-  return arctan(std::sin(angle_rad), std::cos(angle_rad), divider_gain_, false);
+  return in_the_plane(std::sin(angle_rad), std::cos(angle_rad), [&](double q) { return arctan_->noisy_at(q, 0); });
 }
 
-double MixedArithmetic::crossing(Id id, double value) {
+double MixedArithmetic::crossing(Id id, double value, double normal) {
   if (value == last_crossing_ && id == last_crossed_) return last_crossed_value_;
   double crossed = against_arctan_[id] ? numbers::wrap(value) : value;
   if (against_arctan_[id] && calibration_ == Calibration::kTransfer) crossed = transferred(crossed);
-  if (method_ == Method::kWeights) crossed = angle_dac_(crossed, normal_for(angle_dac_));
+  if (method_ == Method::kWeights) crossed = angle_dac_(crossed, normal);
   if (method_ == Method::kWeights && angle_dac_.noisy()) return crossed;
   last_crossing_ = value;
   last_crossed_ = id;

@@ -8,6 +8,20 @@
 
 namespace mote::analog {
 
+/// Where operands stand, each a column of particles.
+using Columns = std::array<const double*, 4>;
+
+/// Normal numbers for noise: number k of particle i; no numbers, no noise.
+struct Normals {
+  const double* numbers = nullptr;
+  std::size_t stride = 0;
+
+  double operator()(std::size_t k, std::size_t i) const { return numbers == nullptr ? 0 : numbers[k * stride + i]; }
+};
+
+/// `gain` times an operation, on `count` particles.
+void apply_all(graph::Op op, const Columns& operands, double gain, std::size_t count, double* out);
+
 /// Computes the operations of a placement.
 ///
 /// Method-1 divides y by x in double, the smaller by the larger, and hands circuits what a DAC makes of it; what
@@ -15,35 +29,50 @@ namespace mote::analog {
 /// is good up to |y/x| = 10. The rest of the plane comes by switched currents: arctan(q) = +-pi/2 - arctan(1/q), and
 /// +-pi for x < 0.
 ///
-/// cost    about 5 ns a circuit, as much for its noise
+/// cost    some nanoseconds a circuit and particle, as much for a normal number of its noise
 class MixedArithmetic {
  public:
   MixedArithmetic(const Placement& placement, const Design& design);
 
-  /// Where noise comes from: a particle's draws; nullptr: there is none.
-  void draw_from(Draw<double>* draw) { draw_ = draw; }
+  /// Makes of an input's values what its part makes of them.
+  void take(graph::Id id, double* values, std::size_t count) const {
+    if (parts_[id] != Part::kSource) return;
+    for (std::size_t i = 0; i < count; ++i) values[i] = gains_[id] * std::clamp(values[i], -clip_, clip_);
+  }
+  /// Whether an operation is that of the graph but for a gain: digital, or currents that do not cross.
+  bool is_graphs(graph::Id id) const {
+    return parts_[id] == Part::kDigital || parts_[id] == Part::kMemory ||
+           (parts_[id] == Part::kCurrents && crossings_[id] == 0);
+  }
+  /// By what such an operation's result is multiplied: 1 where it is exact.
+  double gain(graph::Id id) const { return gains_[id]; }
+  /// How many normal numbers an operation takes as noise.
+  std::size_t normals(graph::Id id) const;
+  /// Another operation, on `count` particles of at most kTile.
+  void compute(graph::Id id, const graph::Vertex& vertex, const Columns& operands, const Normals& noise,
+               std::size_t count, double* out);
 
-  double number(graph::Id id, double value) const {
-    return parts_[id] == Part::kSource ? gains_[id] * std::clamp(value, -clip_, clip_) : value;
-  }
-  /// Whether an operation is that of the graph: digital, or currents that neither cross nor are scaled.
-  bool is_exact(graph::Id id) const {
-    return parts_[id] == Part::kDigital || (parts_[id] == Part::kCurrents && crossings_[id] == 0 && gains_[id] == 1);
-  }
-  /// An operation that is not exact.
-  double compute(graph::Id id, const graph::Vertex& vertex, const std::array<double, 4>& operands);
+  /// Particles that are computed side by side.
+  static constexpr std::size_t kTile = 64;
 
   /// The angle that the circuit gives for a direction, without noise: its measured transfer.
   double transferred(double angle_rad) const;
 
  private:
-  double arctan(double y, double x, double gain, bool noisy) const;
-  double circuit(const Behaviour& behaviour, double x, bool noisy) const;
-  double crossing(graph::Id id, double value);
-  double digitised(graph::Id id, const Converter& adc, double value) const;
-  double normal() const { return draw_ == nullptr ? 0 : draw_->normal(); }
-  double normal_for(const Converter& converter) const { return converter.noisy() ? normal() : 0; }
-  double gaussian(graph::Id id, double x);
+  /// arctan(y/x) all around, by a circuit for a quotient.
+  template <class Circuit>
+  double in_the_plane(double y, double x, const Circuit& circuit) const {
+    const double most = method_ == Method::kWeights ? 1 : kRange;
+    const bool steep = std::abs(y) > most * std::abs(x);
+    const double below = steep ? y : x;
+    const double angle = circuit(below == 0 ? 0 : divider_gain_ * (steep ? x : y) / below);
+    if (steep) return (y > 0 ? kPi / 2 : -kPi / 2) - angle;
+    return x < 0 ? angle + (y < 0 ? -kPi : kPi) : angle;
+  }
+  void arctans(graph::Id id, const graph::Vertex& vertex, const Columns& operands, const Normals& noise,
+               std::size_t count, double* out) const;
+  void gaussians(graph::Id id, const double* x, const Normals& noise, std::size_t count, double* out) const;
+  double crossing(graph::Id id, double value, double normal);
   void choose_gains(const Placement& placement, const Design& design);
 
   std::vector<Part> parts_;
@@ -56,7 +85,6 @@ class MixedArithmetic {
   std::optional<Behaviour> arctan_, gaussian_;
   double clip_, comparator_noise_, divider_gain_ = 1;
   Converter quotient_dac_, angle_dac_, input_dac_, angle_adc_, weight_adc_;
-  Draw<double>* draw_ = nullptr;
   graph::Id last_crossed_ = 0;  ///< where a row's measurement crossed last, the same for all particles
   double last_crossing_ = kNaN, last_crossed_value_ = 0;
 };

@@ -35,8 +35,9 @@ double exact(Function function, double x) {
 
 std::string name_of(Function function) { return function == Function::kArctan ? "arctan" : "gaussian"; }
 
-std::vector<double> deviations_of_die(const std::vector<double>& sds, std::uint64_t seed, std::uint32_t die) {
-  auto block = Draws{.seed = seed, .step = die}.block(kMismatch);
+std::vector<double> deviations_of_die(Function function, const std::vector<double>& sds, std::uint64_t seed,
+                                      std::uint32_t die) {
+  auto block = Draws{.seed = seed, .step = die, .stream = static_cast<std::uint32_t>(function)}.block(kMismatch);
   std::vector<double> deviations(sds.size());
   for (std::size_t d = 0; d < sds.size(); ++d) deviations[d] = sds[d] * block.particle(d).normal();
   return deviations;
@@ -64,6 +65,7 @@ Behaviour::Behaviour(Facts facts, Curve transfer, Curve power, Curve noise, std:
     const double error = transfer_(at(k, kSteps)) - exact(facts_.function, at(k, kSteps));
     squares += error * error;
     facts_.worst = std::max(facts_.worst, std::abs(error));
+    noisy_ = noisy_ || noise_sd(at(k, kSteps)) > 0;
   }
   facts_.rms = std::sqrt(squares / (kSteps + 1));
 }
@@ -76,7 +78,7 @@ std::string Behaviour::name() const {
 Behaviour Behaviour::on_die(std::uint64_t seed, std::uint32_t die) const {
   std::vector<double> sds;
   for (const Sensitivity& device : devices_) sds.push_back(device.sd);
-  const std::vector<double> deviations = deviations_of_die(sds, seed, die);
+  const std::vector<double> deviations = deviations_of_die(facts_.function, sds, seed, die);
   std::vector<double> values(kSteps + 1);
   for (std::size_t k = 0; k <= kSteps; ++k) {
     const double x = at(k, kSteps);

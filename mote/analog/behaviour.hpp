@@ -4,6 +4,7 @@
 // more.
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -18,6 +19,11 @@ enum class Function {
   kArctan,   ///< y = arctan(x) in rad: I_a is 1 rad
   kGaussian  ///< y = exp(-x^2 / 2)
 };
+
+/// I_a of the tracker's circuits in ampere; the Gaussian's stands for sigma_r = 0.29 degrees.
+///
+/// source  MIXED, Table III
+constexpr double table3_current(Function function) { return function == Function::kArctan ? 10e-9 : 0.1e-9; }
 
 /// How much of the transistors a simulation has.
 enum class Level {
@@ -65,8 +71,10 @@ class Curve {
   double per_unit_ = 0, last_ = 0;
 };
 
-/// What ln I of each device deviates by on a die: normal numbers of these standard deviations, drawn at (seed, die).
-std::vector<double> deviations_of_die(const std::vector<double>& sds, std::uint64_t seed, std::uint32_t die);
+/// What ln I of each device of a circuit deviates by on a die: normal numbers of these standard deviations, drawn at
+/// (seed, die), each circuit's in a stream of its own.
+std::vector<double> deviations_of_die(Function function, const std::vector<double>& sds, std::uint64_t seed,
+                                      std::uint32_t die);
 
 /// How a device's current differs between dies, and what it does to the output.
 struct Sensitivity {
@@ -95,6 +103,13 @@ class Behaviour {
 
   /// y at x = I_in / I_a, without noise.
   double operator()(double x) const { return transfer_(x); }
+  /// y with noise, for a standard normal number; NaN stays NaN.
+  double noisy_at(double x, double normal) const {
+    if (std::isnan(x)) return x;
+    return noisy_ ? transfer_(x) + noise_sd(x) * normal : transfer_(x);
+  }
+  /// Whether there is any noise.
+  bool noisy() const { return noisy_; }
   /// Standard deviation of the noise of y: shot noise of every device in the circuit's own bandwidth.
   double noise_sd(double x) const { return std::max(0.0, noise_(x)); }
   /// Power drawn from the supply, in watt.
@@ -117,6 +132,7 @@ class Behaviour {
  private:
   Facts facts_;
   Curve transfer_, power_, noise_;
+  bool noisy_ = false;
   std::vector<Sensitivity> devices_;
 };
 

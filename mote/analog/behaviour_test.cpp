@@ -57,6 +57,15 @@ TEST(Behaviour, IsTheCircuitWithinItsResidual) {
   }
 }
 
+// claim    two circuits of one die differ by numbers of their own
+TEST(Behaviour, DrawsEachCircuitOfADieByItself) {
+  const std::vector<double> sds(3, 1.0);
+  const auto arctan = deviations_of_die(Function::kArctan, sds, 1, 1);
+  EXPECT_EQ(arctan, deviations_of_die(Function::kArctan, sds, 1, 1));
+  const auto gaussian = deviations_of_die(Function::kGaussian, sds, 1, 1);
+  for (std::size_t d = 0; d < sds.size(); ++d) EXPECT_NE(arctan[d], gaussian[d]);
+}
+
 // claim    a die is what ngspice finds when all its devices are off at once, to second order
 // referee  ngspice
 // twin     another die is farther away

@@ -1,5 +1,6 @@
 #include "mote/analog/budget.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "mote/base/numbers.hpp"
@@ -55,13 +56,19 @@ Power overall(const std::vector<Operation>& rows, Implementation implementation,
   Power sum;
   for (const Operation& row : rows) {
     Power power = row.power[static_cast<std::size_t>(implementation)];
-    if (rounded && row.rounded_to_w > 0) power.watt = row.rounded_to_w * std::round(power.watt / row.rounded_to_w);
+    const double whole = row.rounded_to_w > 0 ? row.rounded_to_w * std::round(power.watt / row.rounded_to_w) : 0;
+    if (rounded && whole > 0) power.watt = whole;
     sum = sum + power;
   }
   return sum;
 }
 
 double saving(const Power& a, const Power& b, double mac_w) { return a.at(mac_w) / b.at(mac_w); }
+
+std::array<double, 2> saving_range(const Power& a, const Power& b) {
+  const auto [least, most] = std::minmax({saving(a, b, 0), a.macs / b.macs});
+  return {least, most};
+}
 
 double most_mac_for_saving(const Power& a, const Power& b, double times) {
   const double ahead = a.watt - times * b.watt;
@@ -70,8 +77,7 @@ double most_mac_for_saving(const Power& a, const Power& b, double times) {
   return ahead / loss;
 }
 
-double power_at_rate(const Load& load, Implementation implementation, double rate_hz, double circuit_rate_hz,
-                     double mac_w) {
+double power_at_rate(const Load& load, Implementation implementation, double rate_hz, double mac_w) {
   Load follows = load;
   follows.rate_hz = rate_hz;
   follows.clock_hz = rate_hz;
@@ -79,23 +85,21 @@ double power_at_rate(const Load& load, Implementation implementation, double rat
   const auto place = static_cast<std::size_t>(implementation);
   const bool analog = implementation != Implementation::kDigital;
   const double one = implementation == Implementation::kMethod1
-                         ? std::min({circuit_rate_hz, load.dac.rate_hz, load.adc.rate_hz})
-                         : circuit_rate_hz;
+                         ? std::min({load.rate_hz, load.dac.rate_hz, load.adc.rate_hz})
+                         : load.rate_hz;
   const double copies = std::ceil(rate_hz / one);
-  const double digital_mac = kAnalogMacSaving * mac_w * rate_hz / kCircuitRate;
+  const double digital_mac = kAnalogMacSaving * mac_w * rate_hz / load.rate_hz;
   const bool analog_mac = implementation == Implementation::kMethod2 || implementation == Implementation::kMethod3;
   return (analog ? copies : 1) * (rows[0].power[place].watt + rows[1].power[place].watt) + rows[2].power[place].watt +
          (analog_mac ? copies * mac_w : digital_mac);
 }
 
-double crossover(const Load& load, Implementation a, Implementation b, double circuit_rate_hz, double mac_w,
-                 double least_hz, double most_hz) {
+double crossover(const Load& load, Implementation a, Implementation b, double mac_w, double least_hz, double most_hz) {
   constexpr int kSteps = 400;
   double found = kNaN;
   for (int k = kSteps; k >= 0; --k) {
     const double rate = least_hz * std::pow(most_hz / least_hz, k / static_cast<double>(kSteps));
-    if (power_at_rate(load, a, rate, circuit_rate_hz, mac_w) > power_at_rate(load, b, rate, circuit_rate_hz, mac_w))
-      break;
+    if (power_at_rate(load, a, rate, mac_w) > power_at_rate(load, b, rate, mac_w)) break;
     found = rate;
   }
   return found;

@@ -30,7 +30,7 @@ struct Load {
   Process process;
   int bits = 12;                  ///< of the CORDIC
   double clock_hz = 1e6;          ///< of the CORDIC
-  double rate_hz = kCircuitRate;  ///< of the particles, that adders follow
+  double rate_hz = kCircuitRate;  ///< particles a second of one circuit, that adders follow
 };
 
 /// A row of Table V: nonlinear functions, converters, additions, multiply-accumulate.
@@ -50,27 +50,29 @@ std::vector<Operation> table5(const Load& load);
 /// What Table V leaves out: an ADC by which Method-2's resampler reads weights, and random numbers.
 std::vector<Operation> left_out(const Load& load);
 
-/// The sum of rows; rounded as the paper rounds each, or as they are.
+/// The sum of rows; rounded as the paper rounds each, or as they are. What would be rounded to nothing stays as it is.
 Power overall(const std::vector<Operation>& rows, Implementation implementation, bool rounded);
 
 /// How many times less `b` takes than `a`, at P.
 double saving(const Power& a, const Power& b, double mac_w);
 
+/// How many times less `b` takes than `a` over all P: at P = 0 and for large P, the least first.
+std::array<double, 2> saving_range(const Power& a, const Power& b);
+
 /// The largest P at which `b` takes `times` less than `a`: infinity if it always does, negative if never.
 double most_mac_for_saving(const Power& a, const Power& b, double times);
 
 /// Power of an implementation that is to handle `rate_hz` particles a second. Digital parts follow the rate; circuits
-/// and converters take their power all the time, and as many copies work side by side as the rate asks for.
+/// and converters take their power all the time, and as many copies work side by side as the rate asks for, each of
+/// load.rate_hz, to which P belongs.
 ///
-/// shape   circuit_rate_hz: particles a second of one analog circuit
 /// unit    watt
-double power_at_rate(const Load& load, Implementation implementation, double rate_hz, double circuit_rate_hz,
-                     double mac_w);
+double power_at_rate(const Load& load, Implementation implementation, double rate_hz, double mac_w);
 
 /// The least rate from which on `a` takes no more than `b` up to `most_hz`; NaN if it does nowhere.
 ///
 /// cost    some hundred evaluations
-double crossover(const Load& load, Implementation a, Implementation b, double circuit_rate_hz, double mac_w,
-                 double least_hz = 1, double most_hz = 1e8);
+double crossover(const Load& load, Implementation a, Implementation b, double mac_w, double least_hz = 1,
+                 double most_hz = 1e8);
 
 }  // namespace mote::analog

@@ -50,6 +50,20 @@ TEST(Budget, SavesWhatThePrintedTableSaves) {
   EXPECT_LT(most_mac_for_saving(digital, analog, 20), 0);
 }
 
+TEST(Budget, SortsTheEndsOfASaving) {
+  const auto [least, most] = saving_range({1120e-6, 10}, {10e-6, 1});  // falls from 112 to 10 as P grows
+  EXPECT_NEAR(least, 10, 1e-9);
+  EXPECT_NEAR(most, 112, 1e-9);
+}
+
+// claim    circuits of a few microwatt are not rounded to no power at all
+TEST(Budget, RoundsNothingToZero) {
+  Load load;
+  load.arctan_w = printed_arctan_power(1e-9);
+  load.gaussian_w = printed_gaussian_power(0.1e-9);
+  EXPECT_NEAR(1e6 * overall(table5(load), I::kMethod2, true).watt, 0.7225 + 1.097, 1e-9);
+}
+
 TEST(Budget, SavesTwentyTimesAtTableThreesCurrentsForSmallMacs) {
   Load load;
   load.gaussian_w = printed_gaussian_power(0.1e-9);
@@ -62,24 +76,34 @@ TEST(Budget, SavesTwentyTimesAtTableThreesCurrentsForSmallMacs) {
 
 TEST(Budget, FollowsTheRateOfParticlesInCopiesAndClocks) {
   const Load load;
-  const double one = power_at_rate(load, I::kMethod2, kCircuitRate, kCircuitRate, 1e-6);
-  EXPECT_DOUBLE_EQ(power_at_rate(load, I::kMethod2, 10 * kCircuitRate, kCircuitRate, 1e-6), 10 * one);
-  EXPECT_DOUBLE_EQ(power_at_rate(load, I::kMethod2, 1, kCircuitRate, 1e-6), one);  // bias flows all the time
-  const double digital = power_at_rate(load, I::kDigital, kCircuitRate, kCircuitRate, 1e-6);
-  EXPECT_NEAR(power_at_rate(load, I::kDigital, 10 * kCircuitRate, kCircuitRate, 1e-6), 10 * digital, 1e-9);
+  const double one = power_at_rate(load, I::kMethod2, kCircuitRate, 1e-6);
+  EXPECT_DOUBLE_EQ(power_at_rate(load, I::kMethod2, 10 * kCircuitRate, 1e-6), 10 * one);
+  EXPECT_DOUBLE_EQ(power_at_rate(load, I::kMethod2, 1, 1e-6), one);  // bias flows all the time
+  const double digital = power_at_rate(load, I::kDigital, kCircuitRate, 1e-6);
+  EXPECT_NEAR(power_at_rate(load, I::kDigital, 10 * kCircuitRate, 1e-6), 10 * digital, 1e-9);
+}
+
+// claim    at the circuit's own rate a digital multiply-accumulate takes the 10 P of Table V, whatever that rate is
+TEST(Budget, TakesTheMultiplyAccumulateAtTheCircuitsRate) {
+  const double mac_w = 5e-6;
+  for (const double rate : {1e3, kCircuitRate, 1e6}) {
+    Load load;
+    load.rate_hz = rate;
+    const double without = power_at_rate(load, I::kDigital, rate, 0);
+    EXPECT_NEAR(power_at_rate(load, I::kDigital, rate, mac_w) - without, 10 * mac_w, 1e-15) << rate;
+  }
 }
 
 TEST(Budget, CrossesWhereTheCurvesDo) {
   Load load;
   load.gaussian_w = printed_gaussian_power(0.1e-9);
-  const double rate = crossover(load, I::kMethod2, I::kDigital, kCircuitRate, 1e-6);
+  const double rate = crossover(load, I::kMethod2, I::kDigital, 1e-6);
   const auto ahead = [&](double at) {
-    return power_at_rate(load, I::kDigital, at, kCircuitRate, 1e-6) -
-           power_at_rate(load, I::kMethod2, at, kCircuitRate, 1e-6);
+    return power_at_rate(load, I::kDigital, at, 1e-6) - power_at_rate(load, I::kMethod2, at, 1e-6);
   };
   EXPECT_GE(ahead(rate), 0);
   EXPECT_LT(ahead(0.9 * rate), 0);
-  EXPECT_TRUE(std::isnan(crossover({}, I::kMethod2, I::kDigital, kCircuitRate, 1e-6)));  // Gaussian at 10 nA
+  EXPECT_TRUE(std::isnan(crossover({}, I::kMethod2, I::kDigital, 1e-6)));  // Gaussian at 10 nA
 }
 
 }  // namespace

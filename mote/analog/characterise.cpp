@@ -125,7 +125,8 @@ Dies simulated_dies(Function function, double ia_a, const Conditions& conditions
   const std::vector<double> sds = deviation_sds(circuit, conditions.trimmed);
   Dies dies;
   for (std::uint32_t die = 1; die <= count; ++die)
-    dies.rms.push_back(error_of_die(circuit, {Level::kRealistic, ia_a, conditions, deviations_of_die(sds, seed, die)}));
+    dies.rms.push_back(
+        error_of_die(circuit, {Level::kRealistic, ia_a, conditions, deviations_of_die(function, sds, seed, die)}));
   std::sort(dies.rms.begin(), dies.rms.end());
   return dies;
 }

@@ -111,6 +111,17 @@ void check_plan(const Plan& plan, Method method, const std::string& where) {
           "Leave --proposal out.");
 }
 
+/// Whether every Gaussian behind an arctangent, one at least, can be made wider by a known number.
+bool can_inflate(const Placement& placement) {
+  std::size_t wider = 0;
+  for (graph::Id id = 0; id < placement.behind_arctan.size(); ++id) {
+    if (!placement.behind_arctan[id]) continue;
+    if (!inverse_sigma(placement, id)) return false;
+    ++wider;
+  }
+  return wider > 0;
+}
+
 void check_placement(const Placement& placement, const Design& design, const std::string& where) {
   require(!design.arctan || placement.arctans > 0, where, "--analog arctan", "a model whose likelihood has an atan",
           "one without", "Leave arctan out of --analog.");
@@ -123,6 +134,8 @@ void check_placement(const Placement& placement, const Design& design, const std
                           placement.against_arctan.end();
   require(design.calibration == Calibration::kNone || (design.arctan && calibrated), where, "--calibrate",
           "a model that subtracts an analog atan from a measurement", "none such", "Pass --calibrate none.");
+  require(design.calibration != Calibration::kInflate || can_inflate(placement), where, "--calibrate inflate",
+          "a Gaussian of constant sigma behind the analog atan", "another law of errors", "Pass --calibrate transfer.");
 }
 
 Wanted wanted(const Design& design) {

@@ -8,6 +8,7 @@
 #include "mote/engine/run.hpp"
 #include "mote/filter/imh.hpp"
 #include "mote/filter/sisr.hpp"
+#include "mote/graph/text/text_model.hpp"
 #include "mote/model/bearings.hpp"
 #include "mote/model/ungm.hpp"
 
@@ -128,6 +129,29 @@ void expect_refused(const graph::Recorded& recorded, const Plan& plan, const Des
     EXPECT_EQ(refusal.code(), ExitCode::kWrongUse);
     EXPECT_NE(std::string(refusal.what()).find(word), std::string::npos) << refusal.what();
   }
+}
+
+// claim    a Gaussian that cannot be made wider is refused, not left as it is
+// twin     one of constant sigma is taken, and gives another track than without
+TEST(MixedFilter, InflatesOrRefuses) {
+  const auto text = [](const std::string& law) {
+    return graph::record(graph::TextModel(
+        graph::parse_text_file("law.toml",
+                               "[states]\nh = \"normal(0, 1)\"\n[next]\nh = \"h + normal(0, 1)\"\n[observations]\n"
+                               "y = \"" +
+                                   law + "\"\n"),
+        {}));
+  };
+  Design design = perfect_design(Method::kWeights);
+  design.arctan = behaviour_with(Function::kArctan, [](double x) { return 0.02 / (1 + x * x); });
+  design.calibration = Calibration::kInflate;
+  const Plan sisr = plan_of(FilterKind::kSisr);
+  expect_refused(text("normal(atan(h), exp(h/2))"), sisr, design, "--calibrate inflate");
+  EXPECT_NE(make_mixed_filter(text("normal(atan(h), 0.1)"), sisr, design, "test"), nullptr);
+  const Bearings model = tracker(0.0488692);
+  const auto wider = mixed_track(model, sisr, design);
+  design.calibration = Calibration::kNone;
+  EXPECT_NE(wider, mixed_track(model, sisr, design));
 }
 
 TEST(MixedFilter, RefusesWhatHasNoCircuit) {

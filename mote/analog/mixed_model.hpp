@@ -5,10 +5,39 @@
 #include <span>
 
 #include "mote/analog/tape.hpp"
+#include "mote/filter/chain.hpp"
 #include "mote/filter/weigh.hpp"
 #include "mote/graph/drawn.hpp"
 
 namespace mote::analog {
+
+/// Where a particle's inputs are read; what a function does not read may be left out.
+struct TapeInputs {
+  const double* state = nullptr;     ///< kState
+  const double* before = nullptr;    ///< kBefore
+  const double* row = nullptr;       ///< kColumn
+  const double* schedule = nullptr;  ///< kSchedule
+  const double* draws = nullptr;     ///< the four roles of draws, by number
+
+  void operator()(const graph::Vertex& input, double* value) const {
+    switch (input.role) {
+      case graph::Role::kState:
+        *value = state[input.index];
+        break;
+      case graph::Role::kBefore:
+        *value = before[input.index];
+        break;
+      case graph::Role::kColumn:
+        *value = row[input.index];
+        break;
+      case graph::Role::kSchedule:
+        *value = schedule[input.index];
+        break;
+      default:
+        *value = draws[input.index];
+    }
+  }
+};
 
 /// A recorded model in the arithmetic of a design. The noise of an evaluation has an address: seed, step, particle.
 ///
@@ -32,45 +61,45 @@ class MixedModel {
   template <class S, class D>
   State<S> initial(D& draw) const {
     const auto draws = graph::drawn<double>(shared_->recorded.prior_draws, draw);
-    return computed(shared_->initial, {.draws = draws.data()});
+    return shared_->state_by(shared_->initial, {.draws = draws.data()});
   }
   template <class S, class D>
   State<S> next(Step t, const State<S>& before, D& draw) const {
     const auto draws = graph::drawn<double>(shared_->recorded.draws, draw);
-    return computed(shared_->next,
-                    {.before = before.data(), .schedule = shared_->schedule_at(t), .draws = draws.data()});
+    return shared_->state_by(shared_->next,
+                             {.before = before.data(), .schedule = shared_->schedule_at(t), .draws = draws.data()});
   }
   template <class S>
   S log_likelihood(Step t, const State<S>& x, const Row<S>& y) const {
-    for (std::size_t j = 0; j < y.values.size(); ++j)
-      if (!y.seen(j)) return 0;
-    double sum = 0;
-    shared_->weigh.run(shared_->arithmetic,
-                       {.state = x.data(), .row = y.values.data(), .schedule = shared_->schedule_at(t)}, &sum);
-    return sum;
+    if (!is_whole(y)) return 0;
+    const TapeInputs inputs{.state = x.data(), .row = y.values.data(), .schedule = shared_->schedule_at(t)};
+    shared_->weigh_one.run(shared_->arithmetic, inputs, nullptr, 1);
+    return *shared_->weigh_one.output(0);
   }
 
   /// Adds log p(y | x_i) to the log weights of particles [first, N).
   void weigh_all(Step t, Rows<double> y, const Particles<double>& x, std::size_t first,
                  std::span<double> log_weights) const {
-    auto state = blank_state<double>(*this);
     const Draws draws{seed_, static_cast<std::uint32_t>(t)};
+    const std::size_t normals = shared_->weigh.normals() * y.size();
+    std::vector<double> noise(normals * kTile);
     draws.for_each(kNoise, first / kBlock * kBlock, x.size(), [&](std::size_t i, Draw<double>& draw) {
-      shared_->arithmetic.draw_from(&draw);
-      x.read(i, state);
-      const double sum = mote::log_likelihood<double>(*this, t, state, y);
-      if (i >= first) log_weights[i] += sum;
+      for (std::size_t k = 0; k < normals; ++k) noise[k * kTile + i % kTile] = draw.normal();
+      const bool full = i % kTile == kTile - 1 || i + 1 == x.size();
+      if (full && i >= first) weigh_tile(t, y, x, {i / kTile * kTile, i + 1}, noise, first, log_weights);
     });
-    shared_->arithmetic.draw_from(nullptr);
   }
 
  private:
+  static constexpr std::size_t kTile = MixedArithmetic::kTile;
+
   struct Shared {
     Shared(const Placement& placement, const Design& design)
         : recorded(placement.recorded),
           arithmetic(placement, design),
           initial(placement, arithmetic, recorded.initial),
           next(placement, arithmetic, recorded.next),
+          weigh_one(placement, arithmetic, {recorded.log_likelihood}),
           weigh(placement, arithmetic, {recorded.log_likelihood}) {
       for (const graph::Vertex& v : recorded.graph.vertices())
         scheduled = scheduled || (v.op == graph::Op::kInput && v.role == graph::Role::kSchedule);
@@ -82,19 +111,51 @@ class MixedModel {
       }
       return schedule.data();
     }
+    SmallVector<double> state_by(Tape<1>& tape, const TapeInputs& inputs) {
+      tape.run(arithmetic, inputs, nullptr, 1);
+      SmallVector<double> x(recorded.states.size());
+      for (std::size_t d = 0; d < x.size(); ++d) x[d] = *tape.output(d);
+      return x;
+    }
 
     graph::Recorded recorded;
     MixedArithmetic arithmetic;
-    Tape initial, next, weigh;
+    Tape<1> initial, next, weigh_one;
+    Tape<kTile> weigh;
     bool scheduled = false;  ///< whether anything follows t alone
     std::vector<double> schedule;
     Step step = -1;
   };
 
-  SmallVector<double> computed(Tape& tape, const TapeInputs& inputs) const {
-    SmallVector<double> x(shared_->recorded.states.size());
-    tape.run(shared_->arithmetic, inputs, x.data());
-    return x;
+  template <class S>
+  static bool is_whole(const Row<S>& y) {
+    for (std::size_t j = 0; j < y.values.size(); ++j)
+      if (!y.seen(j)) return false;
+    return true;
+  }
+
+  /// Weighs the particles of a tile, from `first` on.
+  void weigh_tile(Step t, Rows<double> y, const Particles<double>& x, Stretch tile, const std::vector<double>& noise,
+                  std::size_t first, std::span<double> log_weights) const {
+    std::array<double, kTile> sums{};
+    const double* schedule = shared_->schedule_at(t);
+    Tape<kTile>& weigh = shared_->weigh;
+    for (std::size_t r = 0; r < y.size(); ++r) {
+      if (!is_whole(y[r])) continue;
+      const auto fill = [&](const graph::Vertex& input, double* column) {
+        if (input.role == graph::Role::kState) {
+          std::copy_n(x.component(input.index).begin() + static_cast<std::ptrdiff_t>(tile.first), tile.size(), column);
+        } else {
+          const TapeInputs common{.row = y[r].values.data(), .schedule = schedule};
+          common(input, column);
+          std::fill_n(column + 1, tile.size() - 1, *column);
+        }
+      };
+      weigh.run(shared_->arithmetic, fill, noise.data() + r * weigh.normals() * kTile, tile.size());
+      for (std::size_t i = 0; i < tile.size(); ++i) sums[i] += weigh.output(0)[i];
+    }
+    for (std::size_t i = std::max(first, tile.first); i < tile.last; ++i)
+      log_weights[i] += usable(sums[i - tile.first]);
   }
 
   std::shared_ptr<Shared> shared_;

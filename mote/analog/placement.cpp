@@ -21,6 +21,7 @@ class Marking {
     p_.crossings.assign(graph_.size(), 0);
     p_.against_arctan.assign(graph_.size(), false);
     p_.to_digital.assign(graph_.size(), false);
+    p_.behind_arctan.assign(graph_.size(), false);
     for (const auto& [id, part] : circuits) p_.parts[id] = part;
     const std::vector<bool> weighs = graph::reached(graph_, std::vector<Id>{p_.recorded.log_likelihood});
     const std::vector<bool> moves = graph::reached(graph_, p_.recorded.next);
@@ -32,6 +33,7 @@ class Marking {
     } else {
       everything(weighs, moves);
     }
+    behind();
     crossings();
     count();
   }
@@ -62,7 +64,8 @@ class Marking {
     std::vector<bool> varies(graph_.size(), false);
     for (Id id = 0; id < graph_.size(); ++id) {
       const Vertex& v = graph_[id];
-      if (v.op == Op::kInput && moves[id] && v.role == graph::Role::kNormal) p_.parts[id] = Part::kSource;
+      if (v.op == Op::kInput && moves[id] && v.role == graph::Role::kNormal && p_.parts[id] == Part::kDigital)
+        p_.parts[id] = Part::kSource;
       const bool particle = v.op == Op::kInput && v.role != graph::Role::kColumn && v.role != graph::Role::kSchedule &&
                             v.role != graph::Role::kTime;
       varies[id] = particle;
@@ -71,6 +74,16 @@ class Marking {
       if (v.op != Op::kInput && v.op != Op::kConstant && varies[id] && p_.parts[id] == Part::kDigital &&
           (weighs[id] || moves[id]) && v.op != Op::kLog)
         p_.parts[id] = Part::kCurrents;
+    }
+  }
+
+  /// Which Gaussians and squares an arctangent's error reaches.
+  void behind() {
+    std::vector<bool> after(graph_.size(), false);
+    for (Id id = 0; id < graph_.size(); ++id) {
+      for (const Id arg : graph_[id].operands())
+        after[id] = after[id] || p_.parts[arg] == Part::kArctan || (after[arg] && !is_circuit(p_.parts[arg]));
+      p_.behind_arctan[id] = after[id] && (p_.parts[id] == Part::kGaussian || p_.parts[id] == Part::kSquare);
     }
   }
 
@@ -105,6 +118,15 @@ class Marking {
 
 }  // namespace
 
+std::optional<double> inverse_sigma(const Placement& placement, Id id) {
+  const Graph& graph = placement.recorded.graph;
+  const Vertex& operand = graph[graph[id].args[0]];
+  if (operand.op != Op::kMultiply) return std::nullopt;
+  for (const Id arg : operand.operands())
+    if (graph.is_constant(arg)) return std::abs(graph[arg].value);
+  return std::nullopt;
+}
+
 Placement placed(const graph::Recorded& recorded, Method method, Wanted wanted, const Cells& cells) {
   Placement placement;
   Substitution copy(recorded.graph, method, wanted);
@@ -127,9 +149,9 @@ Placement placed(const graph::Recorded& recorded, Method method, Wanted wanted, 
   return placement;
 }
 
-Wanted functions_of(const graph::Recorded& recorded) {
-  const Placement all = placed(recorded, Method::kWeights, {}, {});
-  return {all.arctans > 0, all.gaussians > 0};
+Wanted functions_of(const graph::Recorded& recorded, Method method) {
+  const Placement all = placed(recorded, method, {}, {});
+  return {all.arctans > 0, all.gaussians > 0 && method != Method::kAllButRandom};
 }
 
 }  // namespace mote::analog

@@ -50,6 +50,38 @@ TEST(Placement, FindsTheCircuitsOfTexts) {
   expect_circuits(graph::record(text("log_likelihood = \"(y - h)^2\"")), 0, 0);  // grows: no Gaussian
 }
 
+std::size_t count(const Placement& placement, Part part) {
+  return static_cast<std::size_t>(std::count(placement.parts.begin(), placement.parts.end(), part));
+}
+
+// claim    noise sources are the model's normal numbers; what analog memory draws for its own error is none of them
+TEST(Placement, TakesTheErrorsOfMemoryForNoSources) {
+  const auto recorded = graph::record(Bearings{});
+  const Placement two = placed(recorded, Method::kAllButResampling, {}, {});
+  EXPECT_EQ(count(two, Part::kSource), recorded.draws.size());
+  EXPECT_EQ(count(two, Part::kMemory), 4 * recorded.states.size());  // z, its error, what is left, what is given back
+  EXPECT_EQ(count(placed(recorded, Method::kWeights, {}, {}), Part::kMemory), 0U);
+}
+
+TEST(Placement, KnowsWhichGaussiansAnArctangentReaches) {
+  const auto both = graph::record(text("y = \"normal(atan(h), 0.1)\"\nz = \"normal(h, 0.5)\""));
+  for (const Method method : kMethods) {
+    const Placement placement = placed(both, method, {}, {});
+    EXPECT_EQ(std::count(placement.behind_arctan.begin(), placement.behind_arctan.end(), true), 1);
+    for (graph::Id id = 0; id < placement.behind_arctan.size(); ++id)
+      if (placement.behind_arctan[id]) {
+        EXPECT_NEAR(inverse_sigma(placement, id).value_or(0), 10, 1e-9);
+      }
+  }
+}
+
+TEST(Placement, HasUseForTheArctangentOfAMoveByMethodTwo) {
+  const auto recorded = graph::record(Doa{});
+  EXPECT_FALSE(functions_of(recorded, Method::kWeights).arctan);
+  EXPECT_TRUE(functions_of(recorded, Method::kAllButResampling).arctan);
+  EXPECT_FALSE(functions_of(recorded, Method::kAllButRandom).gaussian);
+}
+
 TEST(Placement, LeavesDigitalWhatIsNotWanted) {
   const auto recorded = graph::record(Bearings{});
   EXPECT_EQ(placed(recorded, Method::kWeights, {true, false}, {}).gaussians, 0U);

@@ -26,6 +26,15 @@ Spice& Spice::loaded() {
   return spice;
 }
 
+std::string Spice::missing() {
+  try {
+    loaded();
+  } catch (const Refusal& refusal) {
+    return refusal.what();
+  }
+  return "";
+}
+
 #ifdef MOTE_HAS_NGSPICE
 
 namespace {

@@ -15,6 +15,9 @@ class Spice {
   /// error   Refusal (kOutsideTool) naming the package when it is not installed, or was not when mote was built
   static Spice& loaded();
 
+  /// Why there is none, in a sentence; empty if there is.
+  static std::string missing();
+
   /// Takes a circuit in place of the one before, whose results go.
   ///
   /// shape   lines: without the closing ".end"
@@ -33,7 +36,6 @@ class Spice {
   explicit Spice(const std::string& library);
 
  private:
-  struct Calls;
   static int heard(char* text, int, void* self);
   static int ended(int code, bool immediately, bool by_quit, int, void* self);
   void command(const std::string& text);

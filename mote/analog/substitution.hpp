@@ -11,14 +11,6 @@
 
 namespace mote::analog {
 
-/// A component of x_{t-1} as its memory gives it back: x (1 - leak + error z), z a normal number of its own.
-inline graph::Id remembered(graph::Graph& graph, graph::Id x, std::uint32_t draw, const Cells& cells) {
-  using graph::Op;
-  const graph::Id z = graph.input(graph::Role::kNormal, draw);
-  const graph::Id error = graph.operation(Op::kMultiply, {graph.constant(cells.memory_error), z});
-  return graph.operation(Op::kMultiply, {x, graph.operation(Op::kAdd, {graph.constant(1 - cells.memory_leak), error})});
-}
-
 /// Copies a graph's vertices into another, circuits in the place of some.
 ///
 ///   c e^2 in a log likelihood, c < 0:  log gaussian(sqrt(-2 c) e);   exp(c e^2):  gaussian(sqrt(-2 c) e)
@@ -43,7 +35,7 @@ class Substitution {
       made = to.constant(v.value);
     } else if (v.op == Op::kInput) {
       made = to.input(v.role, v.index);
-      if (v.role == graph::Role::kBefore && memory != nullptr) made = remembered(to, made, draws + v.index, *memory);
+      if (v.role == graph::Role::kBefore && memory != nullptr) made = remembered(made, draws + v.index);
     } else if (const auto exponential = analog ? gaussian_of(v) : std::nullopt) {
       made = *exponential;
     } else {
@@ -87,6 +79,16 @@ class Substitution {
       default:
         return false;
     }
+  }
+
+  /// A component of x_{t-1} as its memory gives it back: x (1 - leak + error z), z a normal number of its own.
+  Id remembered(Id x, std::uint32_t draw) {
+    const Id z = to.input(graph::Role::kNormal, draw);
+    const Id error = to.operation(Op::kMultiply, {to.constant(memory->memory_error), z});
+    const Id kept = to.operation(Op::kAdd, {to.constant(1 - memory->memory_leak), error});
+    const Id given_back = to.operation(Op::kMultiply, {x, kept});
+    for (const Id id : {z, error, kept, given_back}) circuits.emplace(id, Part::kMemory);
+    return given_back;
   }
 
   Id times(std::optional<Id> factor, Id id) { return factor ? to.operation(Op::kMultiply, {*factor, id}) : id; }

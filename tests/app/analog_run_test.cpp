@@ -66,6 +66,9 @@ TEST_F(MixedMode, RefusesInOneSentence) {
   expect_refused(kRun + "--analog sine=mite", 2, "--analog: expected arctan=... and gaussian=...");
   expect_refused(kRun + "--analog arctan=bipolar", 2, "expected mite");
   expect_refused(kRun + "--analog arctan=mite:Ia=-3n", 2, "expected a current above 0");
+  expect_refused(kRun + "--analog arctan=mite:Ia=1n:Ia=2n", 2, "expected KIND or KIND:Ia=CURRENT");
+  expect_refused(kRun + "--method 3 --filter imh --analog gaussian=ideal", 2, "arctan alone with --method 3");
+  expect_refused("mote analog power --simulated --rate 1000", 2, "--rate: expected none beside --simulated");
   expect_refused(kRun + "--dac-bits 17", 2, "--dac-bits: expected an integer from 0 to 16");
   expect_refused(kRun + "--method 4", 2, "--method");
   expect_refused(kRun + "--part memory_leek=1", 2, "memory_leek");
@@ -86,6 +89,18 @@ TEST_F(MixedMode, GivesTableFive) {
   check("method2", 120, 1);
   check("digital", 1120, 10);
   EXPECT_FALSE(found["saving"]["printed_reaches_20"].get<bool>());
+}
+
+// claim    a saving is the lesser figure to the greater, and twenty times are denied only where they are not reached
+TEST_F(MixedMode, SaysWhichSavingsThereAre) {
+  const auto said = [&](const std::string& options) { return scratch_.shell("mote analog power " + options).out; };
+  EXPECT_NE(said("").find("9.33 to 10 times less than digital; never 20"), std::string::npos);
+  EXPECT_NE(said("--ia-gaussian 0.1").find("10 to 112 times less than digital; 20 for P up to 92.0 uW"),
+            std::string::npos)
+      << said("--ia-gaussian 0.1");
+  const std::string small = said("--ia-gaussian 0.1 --ia-arctan 1");
+  EXPECT_EQ(small.find("inf"), std::string::npos) << small;
+  EXPECT_NE(said("--bits 2").find("at P; never 20"), std::string::npos) << said("--bits 2");
 }
 
 TEST_F(MixedMode, ShowsACircuitBesideTheOthers) {

@@ -79,7 +79,7 @@ TEST(ClipItems, AreRefusedByLine) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {clip_item(clip), "item.toml:5: \"frames\": expected an integer"},
       {clip_item(kDrawn + "[weights]\n"),
-       "one of the tables [simulate], [data], [weights], [clip], [drawn], [cluster], [design], [analog] and [power]"},
+       "one of the tables [simulate], [data], [weights], [clip], [drawn], [cluster], [design] and [analog]"},
       {clip_item(kDrawn, "options = [\"--statse\", \"scale\"]"), "item.toml:13"},
       {clip_item(kDrawn, "options = [\"--states\", \"scale\"]\nset = [\"q=1\"]"), "\"set\": expected one of"},
       {clip_item(kDrawn, "particles = [60, 30]"), "\"particles\": expected a list of whole numbers from 1 on, rising"},

@@ -138,8 +138,7 @@ TEST(WeightItems, AreRefusedByLine) {
        "\"ess\": expected one of 0.5, 0.2"},
       {weights_item(kWeights, fine, "state = \"x\""), "\"ess\": expected one of 0.5, 0.2"},
       {weights_item(kWeights, fine) + "[simulate]\nmodel = \"ungm\"\nsteps = 3\n",
-       "expected one of the tables [simulate], [data], [weights], [clip], [drawn], [cluster], [design], [analog] and "
-       "[power]"},
+       "expected one of the tables [simulate], [data], [weights], [clip], [drawn], [cluster], [design] and [analog]"},
   };
   for (const auto& [text, says] : cases) try {
       reproduce::Laboratory laboratory(item_with(scratch, text));

@@ -14,8 +14,6 @@ namespace {
 using namespace analog;
 using Json = nlohmann::json;
 
-constexpr double kDegree = kPi / 180;
-
 /// In nA, as it was asked for: without the rounding of a factor 1e-9.
 double nanoampere(double ia_a) { return std::round(1e15 * ia_a) / 1e6; }
 
@@ -130,11 +128,11 @@ Characterisation characterisation(const CharacteriseRequest& request,
   }
   for (const Printed& printed : table2()) {
     found.trackers.push_back(
-        characterised(printed.function, 1e-9 * printed.tracker_na, Level::kRealistic, request.conditions));
+        characterised(printed.function, table3_current(printed.function), Level::kRealistic, request.conditions));
     next();
   }
   for (const double sigma_deg : kSigmas_deg) {
-    const double ia_a = 1e-9 * printed_for(Function::kGaussian).tracker_na * sigma_deg / kSigmas_deg.front();
+    const double ia_a = table3_current(Function::kGaussian) * sigma_deg / kSigmas_deg.front();
     const Behaviour gaussian =
         characterised(Function::kGaussian, ia_a, Level::kRealistic, request.conditions, Detail::kTransfer);
     found.weights.push_back(
@@ -146,7 +144,7 @@ Characterisation characterisation(const CharacteriseRequest& request,
       if (request.dies == 0) continue;
       Conditions conditions = request.conditions;
       conditions.trimmed = trimmed;
-      const double ia_a = 1e-9 * printed.tracker_na;
+      const double ia_a = table3_current(printed.function);
       found.dies.push_back({printed.function, ia_a, trimmed,
                             simulated_dies(printed.function, ia_a, conditions, request.seed, request.dies)});
       next();

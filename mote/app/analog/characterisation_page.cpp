@@ -14,7 +14,6 @@ using report::Chart;
 using report::Series;
 using report::Table;
 
-constexpr double kDegree = kPi / 180;
 constexpr int kDrawn = 400;  // steps over the input
 
 std::string titled(Function function) { return function == Function::kArctan ? "arctan" : "Gaussian"; }

@@ -38,10 +38,9 @@ CircuitWords circuit_from(std::string_view text, double ia_a, const std::string&
   } else if (parts[0] != "mite") {
     refuse(where, "mite (transistors) or ideal (the MITE law)", parts[0]);
   }
-  for (std::size_t k = 1; k < parts.size(); ++k) {
-    if (!parts[k].starts_with("Ia=")) refuse(where, "Ia=CURRENT", parts[k]);
-    circuit.ia_a = current_from(parts[k].substr(3), where);
-  }
+  if (parts.size() == 1) return circuit;
+  if (parts.size() > 2 || !parts[1].starts_with("Ia=")) refuse(where, "KIND or KIND:Ia=CURRENT", text);
+  circuit.ia_a = current_from(parts[1].substr(3), where);
   return circuit;
 }
 
@@ -54,9 +53,10 @@ AnalogWords analog_words(const std::string& text, const std::string& where) {
     const std::string_view name = part.substr(0, equals);
     if (equals == std::string_view::npos || (name != "arctan" && name != "gaussian"))
       refuse(where, "arctan=... and gaussian=..., each at most once", part);
+    const analog::Function function = name == "arctan" ? analog::Function::kArctan : analog::Function::kGaussian;
     auto& circuit = name == "arctan" ? words.arctan : words.gaussian;
     if (circuit) refuse(where, "arctan=... and gaussian=..., each at most once", part);
-    circuit = circuit_from(part.substr(equals + 1), name == "arctan" ? 10e-9 : 0.1e-9, where);
+    circuit = circuit_from(part.substr(equals + 1), analog::table3_current(function), where);
   }
   return words;
 }

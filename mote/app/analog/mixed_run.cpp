@@ -6,6 +6,7 @@
 #include "mote/app/analog/circuit_words.hpp"
 #include "mote/app/catalogue/settings.hpp"
 #include "mote/app/commands/plan_options.hpp"
+#include "mote/base/refusal.hpp"
 
 namespace mote {
 namespace {
@@ -44,12 +45,27 @@ Cells cells_from(const Arguments& arguments) {
   return cells;
 }
 
-/// The circuits that a model has a use for.
-AnalogWords whole(const CatalogueModel& model) {
-  const analog::Wanted has = analog::functions_of(model.recorded());
+/// The circuits that a model has a use for by a method.
+AnalogWords whole(const CatalogueModel& model, analog::Method method) {
+  const analog::Wanted has = analog::functions_of(model.recorded(), method);
+  const auto circuit = [](analog::Function function) {
+    return CircuitWords{analog::Level::kRealistic, analog::table3_current(function)};
+  };
   AnalogWords words;
-  if (has.arctan) words.arctan = CircuitWords{analog::Level::kRealistic, 10e-9};
-  if (has.gaussian) words.gaussian = CircuitWords{analog::Level::kRealistic, 0.1e-9};
+  if (has.arctan) words.arctan = circuit(analog::Function::kArctan);
+  if (has.gaussian) words.gaussian = circuit(analog::Function::kGaussian);
+  return words;
+}
+
+/// The circuits that the options ask for.
+///
+/// error   Refusal (kWrongUse) for a Gaussian where there is none
+AnalogWords words_from(const Arguments& arguments, const CatalogueModel& model, analog::Method method) {
+  if (!arguments.given("--analog")) return whole(model, method);
+  AnalogWords words = analog_words(arguments.text("--analog"), arguments.where());
+  if (words.gaussian && method == analog::Method::kAllButRandom)
+    throw Refusal(ExitCode::kWrongUse, {arguments.where(), "--analog", "arctan alone with --method 3",
+                                        "a Gaussian, which it does not have", "Leave gaussian out of --analog."});
   return words;
 }
 
@@ -106,9 +122,7 @@ Design design_from(const Arguments& arguments, const CatalogueModel& model) {
   design.seed = die;
   const double error = arguments.number("--arctan-error", 0, 10'000) / 100;
   const double noise = arguments.number("--noise", 0, 10'000) / 100;
-  AnalogWords words =
-      arguments.given("--analog") ? analog_words(arguments.text("--analog"), arguments.where()) : whole(model);
-  if (design.method == analog::Method::kAllButRandom) words.gaussian.reset();
+  const AnalogWords words = words_from(arguments, model, design.method);
   const auto made = [&](analog::Function function, const CircuitWords& circuit) {
     const analog::Behaviour& typical = circuit_behaviour(function, circuit);
     const analog::Behaviour one = die == 0 ? typical : typical.on_die(design.seed, die);

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "mote/analog/behaviour.hpp"
+
 namespace mote {
 namespace {
 
@@ -17,8 +19,8 @@ constexpr std::array<const char*, kImplementations> kKeys{"method1", "method2", 
 
 /// Table III's currents, for which the paper's "about 20" is asked.
 Load at_table3(Load load) {
-  load.arctan_w = printed_arctan_power(10e-9);
-  load.gaussian_w = printed_gaussian_power(0.1e-9);
+  load.arctan_w = printed_arctan_power(table3_current(Function::kArctan));
+  load.gaussian_w = printed_gaussian_power(table3_current(Function::kGaussian));
   return load;
 }
 
@@ -53,9 +55,11 @@ Json savings(const PowerRequest& request) {
   const Power printed = overall(rows, I::kMethod2, true);
   const Power table3 = overall(low_rows, I::kMethod2, false);
   const double most = most_mac_for_saving(digital, table3, 20);
-  return {{"printed_least", saving(digital, printed, 0)},
-          {"printed_most", digital.macs / printed.macs},
+  const auto [least_saving, most_saving] = saving_range(digital, printed);
+  return {{"printed_least", least_saving},
+          {"printed_most", most_saving},
           {"printed_reaches_20", most_mac_for_saving(digital, printed, 20) >= 0},
+          {"printed_most_p_uw_for_20", 1e6 * most_mac_for_saving(digital, printed, 20)},
           {"table3_nonlinear_uw", 1e6 * low_rows[0].power[1].watt},
           {"table3_most_p_uw_for_20", 1e6 * most},
           {"table3_at_p", saving(digital, table3, request.mac_w)},
@@ -75,7 +79,7 @@ Json work_of(const PowerRequest& request, I implementation) {
 
 Json crossovers(const PowerRequest& request) {
   const auto at = [&](const Load& load, I analog) {
-    const double rate = crossover(load, analog, I::kDigital, request.load.rate_hz, request.mac_w);
+    const double rate = crossover(load, analog, I::kDigital, request.mac_w);
     return std::isnan(rate) ? Json(nullptr) : Json(rate);
   };
   Json json;
@@ -91,7 +95,7 @@ report::Series line(const PowerRequest& request, const Load& load, I implementat
   report::Series series{.name = name, .mark = report::Series::Mark::kLine};
   for (double exponent = 2; exponent <= 8.001; exponent += 0.05) {
     series.x.push_back(std::pow(10, exponent));
-    series.y.push_back(1e6 * power_at_rate(load, implementation, series.x.back(), request.load.rate_hz, request.mac_w));
+    series.y.push_back(1e6 * power_at_rate(load, implementation, series.x.back(), request.mac_w));
   }
   return series;
 }
@@ -114,6 +118,11 @@ std::string rate_words(const Json& rate) {
   return rate.is_null() ? "at no rate" : fmt::format("from {:.3g} particles/s on", rate.get<double>());
 }
 
+/// For which P twenty times hold: up to `most_uw`, below 0 for none.
+std::string twenty_words(double most_uw) {
+  return most_uw < 0 ? "never 20" : fmt::format("20 for P up to {:.1f} uW", most_uw);
+}
+
 std::vector<report::Fact> facts_of(const PowerRequest& request) {
   const Json json = power_json(request);
   const Json& s = json["saving"];
@@ -126,11 +135,10 @@ std::vector<report::Fact> facts_of(const PowerRequest& request) {
       {"CORDIC", fmt::format("{:.4g} uW each; in current-mode logic {:.4g} uW", json["table4"]["digital"].get<double>(),
                              json["table4"]["mcml"].get<double>())},
       {"Method-2 by Table V, rounded as the paper rounds",
-       fmt::format("{:.3g} to {:.3g} times less than digital; never 20", s["printed_least"].get<double>(),
-                   s["printed_most"].get<double>())},
-      {"Method-2 at Table III's currents",
-       fmt::format("20 times less for P up to {:.1f} uW; {:.3g} times at P", s["table3_most_p_uw_for_20"].get<double>(),
-                   s["table3_at_p"].get<double>())},
+       fmt::format("{:.3g} to {:.3g} times less than digital; {}", s["printed_least"].get<double>(),
+                   s["printed_most"].get<double>(), twenty_words(s["printed_most_p_uw_for_20"]))},
+      {"Method-2 at Table III's currents", fmt::format("{:.3g} times less at P; {}", s["table3_at_p"].get<double>(),
+                                                       twenty_words(s["table3_most_p_uw_for_20"]))},
       {"with the ADC and the random numbers",
        fmt::format("{:.3g} times", s["table3_with_left_out_at_p"].get<double>())}};
   for (const char* key : {"method1", "method2", "method3"})

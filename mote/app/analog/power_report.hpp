@@ -12,8 +12,8 @@
 namespace mote {
 
 /// table2 {arctan, gaussian: {min, max}}, table4 {digital, mcml}, table5 {method1, method2, digital, method3: {rows,
-/// printed, components: {uw, macs}}}, saving {printed_least, printed_most, table3_most_p_uw, ...}, p_uw, particle and
-/// step {nj, uj, ms}, crossover_hz; power in uW
+/// printed, components: {uw, macs}}}, saving {printed_least, printed_most, printed_most_p_uw_for_20 (below 0: for no
+/// P), table3_most_p_uw_for_20, ...}, p_uw, particle and step {nj, uj, ms}, crossover_hz; power in uW
 nlohmann::json power_json(const PowerRequest& request);
 
 /// The same for a reader.

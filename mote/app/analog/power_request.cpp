@@ -50,7 +50,7 @@ std::vector<OptionSpec> power_options() {
   return {
       {"--ia-arctan", "NA", "10", "I_a of the arctangent in nA, from 0.001 to 1000", circuits},
       {"--ia-gaussian", "NA", "10", "I_a of the Gaussian in nA, from 0.001 to 1000; Table III has 0.1", circuits},
-      {"--simulated", "", "", "take the circuits' power and rate from a simulation, not from Table II and --rate",
+      {"--simulated", "", "", "take the circuits' power and rate from a simulation, in place of Table II and --rate",
        circuits},
       {"--node", "UM", "0.35", "process of the CORDIC in um, from 0.005 to 10", digital},
       {"--vdd", "V", "3.3", "its supply in V, from 0.1 to 10", digital},
@@ -70,6 +70,9 @@ PowerRequest power_request_from(const Arguments& arguments) {
   request.ia_arctan_a = 1e-9 * arguments.number("--ia-arctan", 1e-3, 1e3);
   request.ia_gaussian_a = 1e-9 * arguments.number("--ia-gaussian", 1e-3, 1e3);
   request.simulated = arguments.given("--simulated");
+  if (request.simulated && arguments.given("--rate"))
+    throw Refusal(ExitCode::kWrongUse, {arguments.where(), "--rate", "none beside --simulated, which finds the rate",
+                                        arguments.text("--rate"), "Leave one of them out."});
   analog::Load& load = request.load;
   load.arctan_w = analog::printed_arctan_power(request.ia_arctan_a);
   load.gaussian_w = analog::printed_gaussian_power(request.ia_gaussian_a);

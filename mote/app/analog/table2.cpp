@@ -5,9 +5,8 @@ namespace mote {
 using analog::Function;
 
 const std::vector<Printed>& table2() {
-  static const std::vector<Printed> all{
-      {Function::kArctan, 0.31, 0.71, 0.361, 14.45, {0.5, 1, 2, 5, 10, 20}, 10},
-      {Function::kGaussian, 2.04, 2.8, 1.097, 109.7, {0.1, 0.2, 0.5, 1, 2, 5, 10}, 0.1}};
+  static const std::vector<Printed> all{{Function::kArctan, 0.31, 0.71, 0.361, 14.45, {0.5, 1, 2, 5, 10, 20}},
+                                        {Function::kGaussian, 2.04, 2.8, 1.097, 109.7, {0.1, 0.2, 0.5, 1, 2, 5, 10}}};
   return all;
 }
 

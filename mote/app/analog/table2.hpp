@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mote/analog/behaviour.hpp"
+#include "mote/base/numbers.hpp"
 
 namespace mote {
 
@@ -14,12 +15,12 @@ struct Printed {
   double least_error, most_error;        ///< percent of the maximum
   double least_power_uw, most_power_uw;  ///< at 3 V
   std::vector<double> ia_na;             ///< the least and the most are printed, those between are ours
-  double tracker_na;                     ///< I_a in the tracker; the Gaussian's at the first sigma_r
 };
 
 const std::vector<Printed>& table2();
 const Printed& printed_for(analog::Function function);
 
+inline constexpr double kDegree = kPi / 180;
 inline constexpr std::array kSigmas_deg{0.29, 2.8};  ///< the tracker's sigma_r
 inline constexpr double kTrueBearing_deg = 33.8;     ///< of Fig. 3
 

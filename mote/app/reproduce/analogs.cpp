@@ -2,6 +2,7 @@
 
 #include "mote/analog/spice.hpp"
 #include "mote/app/analog/characterisation.hpp"
+#include "mote/app/analog/power_report.hpp"
 #include "mote/app/reproduce/answers.hpp"
 #include "mote/base/refusal.hpp"
 
@@ -19,15 +20,26 @@ std::string joined(const std::vector<std::string>& words) {
 Analogs::Question Analogs::question(const AnalogSource& source, const Run& run) {
   std::vector<std::string> words = source.options;
   words.insert(words.end(), run.options.begin(), run.options.end());
+  const std::string asked = source.command + joined(words);
   if (source.command == "characterise") {
     const CharacteriseRequest request =
         characterise_request_from(arguments_from(run.where, characterise_options(), words));
-    return {source.command + joined(words), [request] {
+    return {asked, true, [request] {
               const Characterisation found = characterisation(request, [](std::size_t, std::size_t) {});
               return Answer{characterisation_json(found), characterisation_page(found)};
             }};
   }
-  throw Refusal(ExitCode::kBadData, {source.where, "\"command\"", "characterise", "\"" + source.command + "\"", ""});
+  if (source.command == "power") {
+    const Arguments arguments = arguments_from(run.where, power_options(), words);
+    const bool simulates = arguments.given("--simulated");
+    if (!simulates) (void)power_request_from(arguments);  // so that wrong options show before the work
+    return {asked, simulates, [arguments] {
+              const PowerRequest request = power_request_from(arguments);
+              return Answer{power_json(request), power_page(request, "")};
+            }};
+  }
+  throw Refusal(ExitCode::kBadData,
+                {source.where, "\"command\"", "characterise or power", "\"" + source.command + "\"", ""});
 }
 
 Analogs::Analogs(const Item& item) : first_(item.runs.front().name) {
@@ -35,12 +47,8 @@ Analogs::Analogs(const Item& item) : first_(item.runs.front().name) {
 }
 
 std::string Analogs::missing() const {
-  try {
-    analog::Spice::loaded();
-  } catch (const Refusal& refusal) {
-    return refusal.what();
-  }
-  return "";
+  const auto simulates = [](const auto& entry) { return entry.second.simulates; };
+  return std::any_of(questions_.begin(), questions_.end(), simulates) ? analog::Spice::missing() : "";
 }
 
 const Analogs::Answer& Analogs::answer(const std::string& run, const std::function<void()>& ran) {

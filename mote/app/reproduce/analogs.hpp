@@ -40,6 +40,7 @@ class Analogs {
   };
   struct Question {
     std::string words;  ///< the same words have the same answer
+    bool simulates;     ///< asks ngspice
     std::function<Answer()> ask;
   };
 

@@ -248,7 +248,7 @@ Chart chart_of(const Item& item, const Figure& figure, const Outcome& outcome) {
     draw_clusters(chart, figure, outcome);
   } else if (item.design) {
     draw_designs(chart, figure, outcome);
-  } else if (item.analog || item.power) {
+  } else if (item.analog) {
     const std::string title = chart.title;
     chart = outcome.drawn.at(figure.title);
     chart.title = title;

@@ -18,12 +18,10 @@ constexpr std::int64_t kMostSteps = 1'000'000;
 constexpr std::int64_t kMostRepeats = 10'000;
 
 /// Kinds in the order of the enumeration.
-constexpr std::array<std::string_view, 19> kKinds{
-    "mean-difference", "mean-spread",      "rmse",          "normalised-error",
-    "final-bias",      "reference-error",  "recovered",     "evidence-spread",
-    "summary",         "resample-error",   "resample-time", "resample-cost",
-    "track",           "particles-enough", "cluster",       "circuit",
-    "design",          "analog",           "power"};
+constexpr std::array<std::string_view, 18> kKinds{
+    "mean-difference", "mean-spread",      "rmse",    "normalised-error", "final-bias",    "reference-error",
+    "recovered",       "evidence-spread",  "summary", "resample-error",   "resample-time", "resample-cost",
+    "track",           "particles-enough", "cluster", "circuit",          "design",        "analog"};
 constexpr std::array<std::string_view, 3> kUnits{"standard-error", "posterior-sd", "absolute"};
 constexpr std::array<std::string_view, 2> kMiddles{"mean", "median"};
 
@@ -117,13 +115,13 @@ std::vector<int> rising(Fields& fields, std::string_view key) {
 /// The run of a table, or a run for each number of its list: of particles on a clip, of an option's values else.
 std::vector<Run> runs_from(Fields fields, const Item& item) {
   Run run{fields.where(), fields.text("name"), fields.texts("options"), {}};
-  const bool filters = !item.clip && !item.cluster && !item.design && !item.analog && !item.power;
+  const bool filters = !item.clip && !item.cluster && !item.design && !item.analog;
   if (filters) run.settings = fields.texts("set");
   if (filters && !item.weights) run.circuit = fields.yes("circuit");
   if (filters && !item.weights) run.analog = fields.yes("analog");
   if (run.circuit && run.analog) fields.refuse("analog", "a run without circuit = true");
   const std::string swept = filters ? fields.text_or("sweep", "") : "";
-  const std::vector<int> numbers = item.cluster || item.design || item.analog || item.power
+  const std::vector<int> numbers = item.cluster || item.design || item.analog
                                        ? std::vector<int>{}
                                        : rising(fields, item.clip ? "particles" : "values");
   if (filters && swept.empty() != numbers.empty()) fields.refuse("sweep", "an option, and a list of its values");
@@ -170,7 +168,7 @@ Figure figure_from(Fields fields, const Item& item) {
     figure.repeats = static_cast<int>(fields.integer("most", 2, 10'000, 10));
   } else if (item.analog) {
     figure.quantity = fields.text("quantity");
-  } else if (!item.power) {
+  } else {
     figure.state = fields.text_or("state", "");
     figure.error = fields.yes("error");
     if (fields.has("against")) {
@@ -223,12 +221,8 @@ Kind kind_from(Fields& fields, const Item& item) {
                                                      : item.cluster ? Kind::kCluster
                                                      : item.design  ? Kind::kDesign
                                                      : item.analog  ? Kind::kAnalog
-                                                     : item.power   ? Kind::kPower
                                                                     : Kind{});
-  const std::size_t count = item.weights                                               ? 3
-                            : item.clip                                                ? 2
-                            : item.cluster || item.design || item.analog || item.power ? 1
-                                                                                       : 9;
+  const std::size_t count = item.weights ? 3 : item.clip ? 2 : item.cluster || item.design || item.analog ? 1 : 9;
   const auto known = std::span(kKinds).subspan(first, count);
   if (!fields.has("kind")) fields.refuse("kind", fmt::format("one of {}", fmt::join(known, ", ")));
   if (first == 0 && fields.text_or("kind", "") == kKinds[static_cast<std::size_t>(Kind::kCircuit)])
@@ -263,7 +257,7 @@ Comparison comparison_from(Fields fields, const Item& item) {
       if (std::none_of(item.runs.begin(), item.runs.end(), [&](const Run& r) { return r.name == name && r.circuit; }))
         fields.refuse("runs", "names of runs with circuit = true");
   }
-  if (c.kind == Kind::kDesign || c.kind == Kind::kAnalog || c.kind == Kind::kPower) c.key = fields.text("key");
+  if (c.kind == Kind::kDesign || c.kind == Kind::kAnalog) c.key = fields.text("key");
   c.repeats = c.kind >= Kind::kCluster ? 1 : static_cast<int>(fields.integer("repeats", 2, kMostRepeats, 20));
   read_condition(fields, c);
   c.note = fields.text_or("note", "");
@@ -295,19 +289,17 @@ Item read_item(const std::string& path, const std::string& paper) {
   item.printed = fields.text("printed");
   item.note = fields.text_or("note", "");
   int sources = 0;
-  for (const char* table : {"simulate", "data", "weights", "clip", "drawn", "cluster", "design", "analog", "power"})
+  for (const char* table : {"simulate", "data", "weights", "clip", "drawn", "cluster", "design", "analog"})
     sources += fields.has(table);
   if (sources != 1)
-    fields.refuse(
-        "simulate",
-        "one of the tables [simulate], [data], [weights], [clip], [drawn], [cluster], [design], [analog] and [power]");
+    fields.refuse("simulate",
+                  "one of the tables [simulate], [data], [weights], [clip], [drawn], [cluster], [design] and [analog]");
   if (fields.has("weights")) item.weights = weights_from(fields.table("weights"));
   if (fields.has("clip")) item.clip = clip_from(fields.table("clip"));
   if (fields.has("drawn")) item.clip = drawn_from(fields.table("drawn"));
   if (fields.has("cluster")) item.cluster = options_from(fields.table("cluster"));
   if (fields.has("design")) item.design = options_from(fields.table("design"));
   if (fields.has("analog")) item.analog = analog_from(fields.table("analog"));
-  if (fields.has("power")) item.power = options_from(fields.table("power"));
   if (fields.has("data")) item.recording = data_from(fields.table("data"), path);
   if (fields.has("simulate")) item.recording = simulated_from(fields.table("simulate"));
   for (const Fields& table : fields.tables("run"))
@@ -371,8 +363,6 @@ std::string meaning_of(const Comparison& c) {
       return fmt::format("Value of a design, in the JSON of mote design optimise: {}", c.key);
     case Kind::kAnalog:
       return fmt::format("Value of analog circuits, in the JSON of the item's command: {}", c.key);
-    case Kind::kPower:
-      return fmt::format("Value of the JSON of mote analog power: {}", c.key);
     case Kind::kParticlesEnough:
       return fmt::format(
           "Particles that are enough: the least number from which on the centre error, a mean over filter seeds and "

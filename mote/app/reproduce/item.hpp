@@ -81,8 +81,7 @@ struct Comparison {
     kCluster,          ///< on a simulated cluster: time of all steps, or speed-up, of a cast
     kCircuit,          ///< a figure of a circuit that is simulated with the item's recording, and synthesised
     kDesign,           ///< a value of the convex programs, or of the exact schedule
-    kAnalog,           ///< a value of a command on analog circuits
-    kPower,            ///< a value of the power that components take
+    kAnalog,           ///< a value of a command on analog circuits, or on the power that components take
   };
   /// What a mean difference is measured in.
   enum class Unit { kStandardError, kPosteriorSd, kAbsolute };
@@ -91,12 +90,12 @@ struct Comparison {
   std::string name;
   Kind kind = Kind::kRmse;
   std::vector<std::string> runs;
-  std::string state;  ///< a state, or "position" for the RMSE of x and y together
-  std::string key;    ///< of the summary; of a design and of analog circuits or powers a path in their JSON
-  double slack = 0;   ///< of kParticlesEnough: share that the centre error may be above that of the most
-  double ess = 0;     ///< level of the weights
-  Cast cast = {};     ///< of kCluster: proposers and weighers of the setting that is asked for
-  double mhz = 0;     ///< of kCircuit: the clock of its milliseconds; 0: the one that was found
+  std::string state;                 ///< a state, or "position" for the RMSE of x and y together
+  std::string key;                   ///< of the summary; of a design and of analog circuits a path in their JSON
+  double slack = 0;                  ///< of kParticlesEnough: share that the centre error may be above that of the most
+  double ess = 0;                    ///< level of the weights
+  Cast cast = {};                    ///< of kCluster: proposers and weighers of the setting that is asked for
+  double mhz = 0;                    ///< of kCircuit: the clock of its milliseconds; 0: the one that was found
   Unit unit = Unit::kStandardError;  ///< of a mean difference
   bool median = false;               ///< over the repeats, instead of the mean
   int repeats = 20;
@@ -132,7 +131,6 @@ struct Item {
   std::optional<std::vector<std::string>> cluster;  ///< or steps on simulated clusters: options of every run
   std::optional<std::vector<std::string>> design;   ///< or designs: options of every run
   std::optional<AnalogSource> analog;               ///< or analog circuits
-  std::optional<std::vector<std::string>> power;    ///< or powers of components: options of every run
   std::vector<Run> runs;
   std::vector<Figure> figures;
   std::vector<Comparison> comparisons;

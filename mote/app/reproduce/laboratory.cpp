@@ -87,10 +87,6 @@ Laboratory::Laboratory(Item item) : item_(std::move(item)) {
     analogs_ = as_bad_data([&] { return std::make_unique<Analogs>(item_); });
     return;
   }
-  if (item_.power) {
-    budgets_ = as_bad_data([&] { return std::make_unique<Budgets>(item_); });
-    return;
-  }
   const Source& from = item_.recording;
   header_ = from.simulated() ? frame_header(from.columns) : read_table(from.observations).header;
   source_ = model_with(from.settings, from.where);
@@ -168,11 +164,8 @@ void Laboratory::check_comparisons() const {
 std::string Laboratory::missing() const {
   if (clusters_) return clusters_->missing();
   if (analogs_) return analogs_->missing();
-  if (std::any_of(item_.runs.begin(), item_.runs.end(), [](const Run& run) { return run.analog; })) try {
-      analog::Spice::loaded();
-    } catch (const Refusal& refusal) {
-      return refusal.what();
-    }
+  if (std::any_of(item_.runs.begin(), item_.runs.end(), [](const Run& run) { return run.analog; }))
+    if (const std::string why = analog::Spice::missing(); !why.empty()) return why;
   const std::string clip = cinema_ ? cinema_->missing() : "";
   return clip.empty() ? "" : fmt::format("there is no {}. Set MOTE_DATA to the folder with clips/.", clip);
 }
@@ -182,7 +175,6 @@ std::size_t Laboratory::work() const {
   if (clusters_) return clusters_->work();
   if (designs_) return designs_->work();
   if (analogs_) return analogs_->work();
-  if (budgets_) return budgets_->work();
   std::size_t runs = item_.weights ? 0 : item_.runs.size();
   for (const Comparison& c : item_.comparisons)
     runs += (c.kind == Kind::kNormalisedError ? 1 : c.runs.size()) * static_cast<std::size_t>(c.repeats);
@@ -277,7 +269,6 @@ std::vector<double> Laboratory::sample(const Comparison& c, std::uint64_t repeat
   if (clusters_) return {clusters_->figure(c, side, ran_)};
   if (designs_) return {designs_->figure(c, side)};
   if (analogs_) return {analogs_->figure(c, side, ran_)};
-  if (budgets_) return {budgets_->figure(c, side)};
   if (c.kind == Kind::kCircuit) {
     const double figure = benches_.at(c.runs[side]).circuit->figure(c, scene(0).recording);
     ran_();
@@ -329,7 +320,6 @@ std::vector<double> Laboratory::sample(const Comparison& c, std::uint64_t repeat
     case Kind::kCircuit:
     case Kind::kDesign:
     case Kind::kAnalog:
-    case Kind::kPower:
       break;  // of items on weights, clips and clusters, of designs
   }
   return {kNaN};
@@ -479,7 +469,7 @@ std::string Laboratory::missing_tool(const Comparison& c) const {
 Outcome Laboratory::regenerate(const std::function<void()>& ran) {
   ran_ = ran;
   Outcome outcome;
-  if (!item_.weights && !cinema_ && !clusters_ && !designs_ && !analogs_ && !budgets_) run_filters(outcome);
+  if (!item_.weights && !cinema_ && !clusters_ && !designs_ && !analogs_) run_filters(outcome);
   for (const Comparison& comparison : item_.comparisons)
     if (const std::string tool = missing_tool(comparison); !tool.empty()) {
       outcome.left_out.push_back(fmt::format("left out {}: {}", comparison.name, tool));
@@ -491,8 +481,6 @@ Outcome Laboratory::regenerate(const std::function<void()>& ran) {
   if (item_.weights) outcome.tradeoffs = tradeoffs();
   if (cinema_) show_clips(outcome);
   if (clusters_) outcome.sweeps = clusters_->sweeps(ran_);
-  if (budgets_)
-    for (const Figure& figure : item_.figures) outcome.drawn[figure.title] = budgets_->chart(figure);
   if (designs_)
     for (const Figure& figure : item_.figures) outcome.curves[figure.title] = designs_->curves(figure);
   if (analogs_)

@@ -10,7 +10,6 @@
 #include "mote/app/catalogue/scene.hpp"
 #include "mote/app/commands/job.hpp"
 #include "mote/app/reproduce/analogs.hpp"
-#include "mote/app/reproduce/budgets.hpp"
 #include "mote/app/reproduce/cinema.hpp"
 #include "mote/app/reproduce/circuits.hpp"
 #include "mote/app/reproduce/clusters.hpp"
@@ -131,7 +130,6 @@ class Laboratory {
   std::unique_ptr<Clusters> clusters_;                                         // of an item on simulated clusters
   std::unique_ptr<Designs> designs_;                                           // of an item of designs
   std::unique_ptr<Analogs> analogs_;                                           // of an item on analog circuits
-  std::unique_ptr<Budgets> budgets_;                                           // of an item of powers
   std::function<void()> ran_;
 };
 

@@ -42,25 +42,13 @@ std::string commands_for(const Item& item, const std::string& command, const std
   return script;
 }
 
-std::string analogs_for(const Item& item) {
-  std::string script;
-  for (const Run& run : item.runs) {
-    script += "mote analog " + item.analog->command;
-    for (const auto& options : {item.analog->options, run.options})
-      for (const std::string& option : options) script += " " + shell_word(option);
-    script += fmt::format(" --json {}-{}.json\n", slug(item.paper + "-" + item.name), slug(run.name));
-  }
-  return script;
-}
-
 }  // namespace
 
 std::string script_for(const Item& item) {
   if (item.weights) return "";
   if (item.cluster) return commands_for(item, "mote simulate-cluster --stage-parallel", *item.cluster);
   if (item.design) return commands_for(item, "mote design optimise", *item.design);
-  if (item.power) return commands_for(item, "mote analog power", *item.power);
-  if (item.analog) return analogs_for(item);
+  if (item.analog) return commands_for(item, "mote analog " + item.analog->command, item.analog->options);
   if (item.clip) return item.clip->drawn() ? "" : tracks_for(item);
   const Source& from = item.recording;
   const std::string base = slug(item.paper + "-" + item.name);
