@@ -62,7 +62,8 @@ const Analogs::Answer& Analogs::answer(const std::string& run, const std::functi
 }
 
 double Analogs::figure(const Comparison& c, std::size_t side, const std::function<void()>& ran) {
-  return answer_at(answer(c.runs[side], ran).figures, c, "mote analog characterise", "arctan/0/rms_percent");
+  return answer_at(answer(c.runs[side], ran).figures, c, "the item's command",
+                   "arctan/0/rms_percent (characterise) or table5/method1/printed/uw (power)");
 }
 
 report::Chart Analogs::chart(const Figure& figure, const std::function<void()>& ran) {
