@@ -5,14 +5,9 @@
 #include <tuple>
 
 namespace mote::design {
-namespace {
-
-/// Of two different points: at most as large in every figure.
 bool dominates(const Point& a, const Point& b) {
   return a != b && std::equal(a.begin(), a.end(), b.begin(), [](double x, double y) { return x <= y; });
 }
-
-}  // namespace
 
 std::vector<std::size_t> frontier(const std::vector<Point>& points) {
   std::vector<std::size_t> order(points.size());

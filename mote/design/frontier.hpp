@@ -9,8 +9,10 @@ namespace mote::design {
 /// The figures of a design – an error, a time, an area –, each the better the less it is.
 using Point = std::vector<double>;
 
-/// The places of the points that no other dominates, in their order; one dominates another that is at most as large in
-/// every figure and smaller in one. Equal points stay together.
+/// Whether a is at most as large as b in every figure, and smaller in one.
+bool dominates(const Point& a, const Point& b);
+
+/// The places of the points that no other dominates, in their order. Equal points stay together.
 ///
 /// shape   points: all of one length, no NaN
 /// cost    O(n log n + n f), f points of the frontier

@@ -5,22 +5,24 @@
 
 namespace mote::design {
 
-std::vector<std::size_t> halve(std::size_t candidates, const Rungs& rungs, const Judge& judge, const Ranked& ranked) {
-  std::vector<std::size_t> runs(candidates, 0);
+std::vector<Rung> ladder(std::size_t candidates, const Rungs& rungs) {
+  std::vector<Rung> all;
+  if (candidates == 0) return all;
+  all.push_back({candidates, 0, std::min(rungs.first, rungs.most)});
+  while (all.back().last < rungs.most)
+    all.push_back({(all.back().candidates + 1) / 2, all.back().last, std::min(2 * all.back().last, rungs.most)});
+  return all;
+}
+
+Candidates halve(std::size_t candidates, const Rungs& rungs, const Judge& judge, const Ranked& ranked) {
   Candidates left(candidates);
   std::iota(left.begin(), left.end(), std::size_t{0});
-  std::size_t done = 0;
-  std::size_t wanted = std::min(rungs.first, rungs.most);
-  while (!left.empty()) {
-    judge(left, done, wanted);
-    for (const std::size_t c : left) runs[c] = wanted;
-    if (wanted == rungs.most) break;
-    left = ranked(std::move(left));
-    left.resize((left.size() + 1) / 2);
-    done = wanted;
-    wanted = std::min(2 * wanted, rungs.most);
+  for (const Rung& rung : ladder(candidates, rungs)) {
+    if (rung.candidates < left.size()) left = ranked(std::move(left));
+    left.resize(rung.candidates);
+    judge(left, rung.first, rung.last);
   }
-  return runs;
+  return left;
 }
 
 }  // namespace mote::design

@@ -20,10 +20,10 @@ TEST(Halving, JudgesTheBetterHalfByTwiceAsManyRuns) {
     std::sort(c.rbegin(), c.rend());
     return c;
   };
-  const auto runs = halve(5, {4, 24}, judge, ranked);
-  EXPECT_EQ(runs, (std::vector<std::size_t>{4, 4, 8, 16, 24})) << "larger numbers are ranked before";
+  EXPECT_EQ(halve(5, {4, 24}, judge, ranked), Candidates{4}) << "larger numbers are ranked before";
   EXPECT_EQ(calls, (std::vector<std::array<std::size_t, 3>>{{5, 0, 4}, {3, 4, 8}, {2, 8, 16}, {1, 16, 24}}));
-  EXPECT_EQ(halve(3, {9, 6}, judge, ranked), (std::vector<std::size_t>{6, 6, 6})) << "no more than the most";
+  EXPECT_EQ(halve(3, {9, 6}, judge, ranked), (Candidates{0, 1, 2})) << "no more runs than the most";
+  EXPECT_EQ(calls.back(), (std::array<std::size_t, 3>{3, 0, 6}));
   EXPECT_TRUE(halve(0, {1, 2}, judge, ranked).empty());
 }
 
@@ -59,12 +59,10 @@ class Synthetic {
       return c;
     };
   }
-  /// How far the best of the candidates with the most runs is from the truly best.
-  double loss(const std::vector<std::size_t>& runs) const {
-    std::size_t pick = 0;
-    double least = INFINITY;
-    for (std::size_t c = 0; c < runs.size(); ++c)
-      if (runs[c] == errors_[c].size() && sums_[c] < least) least = sums_[pick = c];
+  /// How far the best of the finalists is from the truly best.
+  double loss(const Candidates& finalists) const {
+    const std::size_t pick = *std::min_element(finalists.begin(), finalists.end(),
+                                               [&](std::size_t a, std::size_t b) { return sums_[a] < sums_[b]; });
     return truth_[pick] / *std::min_element(truth_.begin(), truth_.end()) - 1;
   }
   /// The same of the least sum of all runs of all candidates.
@@ -72,7 +70,7 @@ class Synthetic {
     Candidates all(truth_.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     judge()(all, 0, errors_[0].size());
-    return loss(std::vector<std::size_t>(truth_.size(), errors_[0].size()));
+    return loss(all);
   }
 
  private:

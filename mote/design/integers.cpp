@@ -36,8 +36,8 @@ struct Worse {
 
 class Search {
  public:
-  Search(const Demand& demand, std::size_t queue, const Message& message, double bound_factor)
-      : d_(demand), queue_(queue), message_(message), bound_factor_(bound_factor) {}
+  Search(const Demand& demand, std::size_t queue, const Message& message)
+      : d_(demand), queue_(queue), message_(message) {}
 
   WholeAnswer run() {
     for (std::size_t chains = 1; chains <= d_.most_chains; ++chains) {
@@ -105,7 +105,7 @@ class Search {
     if (box.single()) return;
     consider(plant(box.p, box.w, box.chains, time(box.p, box.w, box.chains)));
     // fewest blocks in the least time
-    box.least = rank(plant(box.p, box.w, box.chains, bound_factor_ * least_time));
+    box.least = rank(plant(box.p, box.w, box.chains, least_time));
     if (!less(box.least, best_)) return;
     boxes_.push(box);
   }
@@ -133,7 +133,6 @@ class Search {
   const Demand& d_;
   std::size_t queue_;
   Message message_;
-  double bound_factor_;
   std::priority_queue<Box, std::vector<Box>, Worse> boxes_;
   WholeAnswer found_;
   Rank best_{kWorst, kWorst, kWorst, kWorst};
@@ -147,8 +146,8 @@ Line line_of(const Demand& d, std::size_t proposers, std::size_t weighers, std::
   return {d.burn_in + share, d.times, proposers, weighers, queue, message};
 }
 
-WholeAnswer optimise_whole(const Demand& demand, std::size_t queue, const Message& message, double bound_factor) {
-  return Search(demand, queue, message, bound_factor).run();
+WholeAnswer optimise_whole(const Demand& demand, std::size_t queue, const Message& message) {
+  return Search(demand, queue, message).run();
 }
 
 }  // namespace mote::design

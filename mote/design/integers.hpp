@@ -31,11 +31,7 @@ Line line_of(const Demand& demand, std::size_t proposers, std::size_t weighers, 
 ///
 /// `queue` and `message` as in Line; with either every schedule is played event by event.
 ///
-/// Every box's least time counts `bound_factor` fold: up to 1 these are bounds, above 1 they are none, for a test's
-/// twin.
-///
 /// cost    mostly below a thousand schedules; 100 000 at most, after which the answer is not proven
-WholeAnswer optimise_whole(const Demand& demand, std::size_t queue = 0, const Message& message = {},
-                           double bound_factor = 1);
+WholeAnswer optimise_whole(const Demand& demand, std::size_t queue = 0, const Message& message = {});
 
 }  // namespace mote::design

@@ -210,7 +210,7 @@ TEST_F(Explore, RefusesNonsense) {
   for (const auto& [line, sentence] : std::vector<std::pair<std::string, std::string>>{
            {explore, "--target: expected cpu, cluster, mixed or fpga:DEVICE, got nothing"},
            {explore + "--target gpu", "--target: expected cpu, cluster, mixed or fpga:DEVICE, got \"gpu\""},
-           {explore + "--target analog", "--target: expected cpu, cluster, mixed or fpga:DEVICE"},
+           {explore + "--target cpu --currents 10", "--currents: expected --target mixed, got --target cpu"},
            {explore + "--target fpga:xc9", "--target: expected fpga: with one of xc7a15t"},
            {explore + "--target cpu --deadline 1",
             "--deadline: expected a number above 0 with its unit (ms, us, ns, s)"},

@@ -1,13 +1,9 @@
 #include "mote/app/commands/checkpoint_options.hpp"
 
-#include <algorithm>
-
-#include <boost/crc.hpp>
 #include <fmt/format.h>
 
-#include "mote/app/catalogue/text_entry.hpp"
 #include "mote/app/commands/plan_options.hpp"
-#include "mote/app/files/text.hpp"
+#include "mote/app/files/facts.hpp"
 #include "mote/engine/cast.hpp"
 #include "mote/engine/team.hpp"
 #include "mote/software/simd/isa.hpp"
@@ -16,25 +12,6 @@ namespace mote {
 namespace {
 
 constexpr long long kMostSteps = 1000000000;
-
-std::string checksum_of(const std::string& text) {
-  boost::crc_32_type checksum;
-  checksum.process_bytes(text.data(), text.size());
-  return fmt::format("{:08x}", checksum.checksum());
-}
-
-/// A recording as a fact: its steps, and the checksum of all that a filter sees of them.
-std::string summed_up(const Recording& recording) {
-  boost::crc_32_type checksum;
-  const auto note = [&](const auto& number) { checksum.process_bytes(&number, sizeof number); };
-  for (const ObservedStep& step : recording.steps) {
-    note(step.t);
-    note(step.rows.size());
-    for (const Row<double>& row : step.rows)
-      for (std::size_t j = 0; j < row.values.size(); ++j) note(row.present[j] ? row.values[j] : kNaN);
-  }
-  return fmt::format("{} steps, checksum {:08x}", recording.steps.size(), checksum.checksum());
-}
 
 /// Whether the bits depend on how long the processor's vectors are: those of the SIMD engine do, alone or on a team.
 bool is_on_vectors(const Plan& plan) {
@@ -47,14 +24,7 @@ std::string instruction_set(const Plan& plan) {
 }
 
 RunFacts facts_of(const Arguments& arguments, const Plan& plan, const Job& job) {
-  RunFacts facts{{"mote", MOTE_VERSION}, {"MODEL", job.model_name}};
-  if (is_text_model(job.model_name)) facts.emplace_back("model of checksum", checksum_of(read_text(job.model_name)));
-  std::vector<std::string> settings = arguments.list("--set");
-  std::sort(settings.begin(), settings.end());
-  facts.emplace_back("--set", fmt::format("{}", fmt::join(settings, " ")));
-  for (const std::string& setting : settings)
-    if (setting.starts_with("file="))
-      facts.emplace_back("matrices of checksum", checksum_of(read_text(setting.substr(5))));
+  RunFacts facts = model_facts(job.model_name, arguments.list("--set"));
   facts.emplace_back("--data of", summed_up(job.recording));
   facts.emplace_back("--estimate", fmt::format("{}", fmt::join(arguments.list("--estimate"), " ")));
   for (const OptionSpec& option : plan_options()) {

@@ -7,6 +7,7 @@
 #include "mote/app/commands/command.hpp"
 #include "mote/app/commands/particle_list.hpp"
 #include "mote/app/compare/publication.hpp"
+#include "mote/app/compare/scenes.hpp"
 #include "mote/app/files/output.hpp"
 #include "mote/app/files/text.hpp"
 #include "mote/app/terminal/progress.hpp"
@@ -17,47 +18,8 @@ namespace {
 
 using namespace compare;
 
-constexpr long long kMostSteps = 1'000'000;
-constexpr long long kMostRuns = 10'000;
-const std::string kLargeRun = "sisr -n 200000";
-
-std::size_t count_from(const Arguments& arguments, const std::string& name) {
-  return static_cast<std::size_t>(arguments.integer(name, 1, kMostRuns));
-}
-
-/// Simulated recordings, the same for every contender: seeds S to S + K - 1.
-void simulate_scenes(const Arguments& arguments, Design& design, Outcome& outcome) {
-  const auto header = frame_header(arguments.integer("--columns", 1, 4096));
-  const auto steps = static_cast<Step>(arguments.integer("--steps", 1, kMostSteps));
-  const std::size_t recordings = count_from(arguments, "--recordings");
-  design.catalogue_model =
-      find_model(design.model, design.where).make(Settings(design.where, arguments.list("--set")), header);
-  for (std::size_t k = 0; k < recordings; ++k)
-    design.scenes.push_back(simulated_scene(*design.catalogue_model, steps, design.seed + k));
-  outcome.source = fmt::format("{} recording{} of {} steps (seeds {} to {})", recordings, recordings == 1 ? "" : "s",
-                               steps, design.seed, design.seed + recordings - 1);
-}
-
-void load_scene(const Arguments& arguments, Design& design, Outcome& outcome, std::vector<std::string>& notes) {
-  for (const std::string name : {"--steps", "--recordings", "--columns"})
-    if (arguments.given(name))
-      throw Refusal(ExitCode::kWrongUse, {design.where, name, "simulated recordings", "--data with one of its own",
-                                          "Leave out " + name + " or --data."});
-  Job job = load_job(design.model, arguments.text("--data"), arguments.text("--truth"), arguments.list("--set"),
-                     design.where);
-  design.catalogue_model = job.model;
-  design.scenes.push_back({std::move(job.recording), job.truth ? std::move(*job.truth) : Truth{}});
-  notes.insert(notes.end(), job.notes.begin(), job.notes.end());
-  outcome.source = arguments.text("--data");
-}
-
-void find_scenes(const Arguments& arguments, Design& design, Outcome& outcome, std::vector<std::string>& notes) {
-  if (arguments.given("--data")) return load_scene(arguments, design, outcome, notes);
-  if (arguments.given("--truth"))
-    throw Refusal(ExitCode::kWrongUse, {design.where, "--truth", "--data, whose truth it is", "nothing",
-                                        "Pass --data, or leave --truth out: simulated recordings have their own."});
-  simulate_scenes(arguments, design, outcome);
-}
+constexpr SceneBounds kMost{1'000'000, 4096};
+constexpr long long kMostRepeats = 10'000;
 
 /// The reference that was asked for, its plan read before any work is done.
 Reference find_reference(const Design& design, const std::string& asked, const std::optional<Plan>& plan,
@@ -66,14 +28,12 @@ Reference find_reference(const Design& design, const std::string& asked, const s
   const auto update = [&](std::size_t done, std::size_t all) { progress.update(done, all); };
   if (asked == "none") return {};
   if (plan) return run_reference(design, *plan, asked, update, stop);
+  if (asked != "exact") return usual_reference(design, update, stop);
   Reference exact = exact_reference(design, update, stop);
   if (!exact.name.empty()) return exact;
-  if (asked == "exact")
-    throw Refusal(ExitCode::kWrongUse,
-                  {design.where, "--reference exact", "a model and recordings with a known exact solution",
-                   design.model, "Pass --reference \"" + kLargeRun + "\", or leave it out."});
-  std::vector<std::string> no_notes;
-  return run_reference(design, reference_plan(kLargeRun, design.where, no_notes), kLargeRun, update, stop);
+  throw Refusal(ExitCode::kWrongUse,
+                {design.where, "--reference exact", "a model and recordings with a known exact solution", design.model,
+                 "Pass --reference \"" + kLargeRun + "\", or leave it out."});
 }
 
 /// Refuses a comparison without anything to measure errors by.
@@ -118,7 +78,7 @@ Prepared prepare(const Arguments& arguments, const std::string& model, std::vect
   design.model = model;
   design.where = arguments.where();
   design.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 0, 9223372036854775807LL));
-  design.repeats = count_from(arguments, "--repeats");
+  design.repeats = static_cast<std::size_t>(arguments.integer("--repeats", 1, kMostRepeats));
   design.particles = particle_list_from(arguments);
   design.contenders = contenders_from(
       arguments.required("--filters", "filters with their options, separated by ;", "Pass --filters \"sisr; imh\"."),
@@ -126,7 +86,7 @@ Prepared prepare(const Arguments& arguments, const std::string& model, std::vect
   const std::string reference = arguments.text("--reference");
   if (reference != "auto" && reference != "exact" && reference != "none")
     prepared.reference_run = reference_plan(reference, design.where, notes);
-  find_scenes(arguments, design, outcome, notes);
+  outcome.source = find_scenes(arguments, kMost, design, notes);
   design.target = target_of(arguments.text("--state"), design.catalogue_model->states(), design.where);
   check_measurable(design, reference, outcome.lost_beyond);
   check_contenders(design);

@@ -5,6 +5,7 @@
 
 #include "mote/app/catalogue/text_entry.hpp"
 #include "mote/app/commands/command.hpp"
+#include "mote/app/compare/scenes.hpp"
 #include "mote/app/explore/publication.hpp"
 #include "mote/app/explore/request.hpp"
 #include "mote/app/files/output.hpp"
@@ -16,8 +17,6 @@ namespace mote {
 namespace {
 
 using namespace explore;
-
-const std::string kLargeRun = "sisr -n 200000";
 
 void protect_inputs(OutputSet& outputs, const Arguments& arguments) {
   outputs.protect(arguments.text("--data"));
@@ -34,18 +33,13 @@ std::string state_file(const Arguments& arguments) {
   return json.empty() || names_stream(json) ? "" : json + ".state";
 }
 
-/// The exact means, or where none are known those of a large run.
 compare::Reference reference_of(const compare::Design& design) {
   Progress progress("recordings of the reference");
-  const auto update = [&](std::size_t done, std::size_t all) { progress.update(done, all); };
-  compare::Reference exact = compare::exact_reference(design, update, stop_flag());
-  if (!exact.name.empty()) return exact;
-  std::vector<std::string> no_notes;
-  return compare::run_reference(design, compare::reference_plan(kLargeRun, design.where, no_notes), kLargeRun, update,
-                                stop_flag());
+  return compare::usual_reference(
+      design, [&](std::size_t done, std::size_t all) { progress.update(done, all); }, stop_flag());
 }
 
-/// A bar for candidates, then one for runs.
+/// A bar for each thing that is counted.
 class Bars {
  public:
   void update(const char* what, std::size_t done, std::size_t all) {
@@ -69,7 +63,7 @@ ExitCode run_explore(const Arguments& arguments) {
   Output* json = outputs.open(arguments.text("--json"));
   Output* page = outputs.open(arguments.text("--report"));
   for (const std::string& note : material.notes) fmt::print(stderr, "{}\n", printable(note));
-  Journal journal(state, belongs_of(arguments, material, *target));
+  Journal journal(state, facts_of(arguments, material, *target));
   material.design.reference = reference_of(material.design);
   const Jury jury(std::move(material.design));
   Exploration found{arguments.text("MODEL"),
@@ -105,7 +99,7 @@ Command design_explore_command() {
           std::move(options),
           run_explore,
           "Budgets that nothing keeps are answered by the nearest design. Exit codes: 0 done, 2 wrong use, 3 bad data, "
-          "5 outside tool, 6 cannot write, 130 interrupted."};
+          "4 every filter collapsed, 5 outside tool, 6 cannot write, 130 interrupted."};
 }
 
 }  // namespace mote

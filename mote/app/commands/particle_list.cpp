@@ -1,7 +1,6 @@
 #include "mote/app/commands/particle_list.hpp"
 
 #include <algorithm>
-#include <sstream>
 
 #include <fmt/format.h>
 
@@ -13,13 +12,13 @@ namespace mote {
 std::vector<long long> integer_list_from(const Arguments& arguments, const std::string& option, long long least,
                                          long long most, const std::string& example) {
   std::vector<long long> all;
-  std::istringstream stream(arguments.text(option));
-  for (std::string part; std::getline(stream, part, ',');) {
-    const auto n = integer_in(std::string(trimmed(part)));
+  const std::string text = arguments.text(option);
+  for (const std::string_view part : parts_of(text, ',')) {
+    const auto n = integer_in(part);
     if (!n || *n < least || *n > most)
       throw Refusal(ExitCode::kWrongUse,
                     {arguments.where(), option, fmt::format("integers from {} to {}, separated by commas", least, most),
-                     "\"" + arguments.text(option) + "\"", "Pass " + option + " " + example + "."});
+                     "\"" + text + "\"", "Pass " + option + " " + example + "."});
     all.push_back(*n);
   }
   std::sort(all.begin(), all.end());

@@ -19,8 +19,8 @@ constexpr std::size_t kMpirun = 3;
 
 class Cluster final : public Target {
  public:
-  Cluster(const Space& space, const std::string& platform)
-      : space_(space), platform_(simulated::platform_from(platform, space.where)) {
+  explicit Cluster(const Space& space)
+      : space_(space), platform_(simulated::platform_from(space.platform, space.where)) {
     simulated::check_tools(space_.where);
     const auto states = space_.catalogue_model->states();
     dimensions_ = states.size();
@@ -30,7 +30,9 @@ class Cluster final : public Target {
     for (const std::string& kind : kinds_of(space_, {"sisr", "imh", "distributed", "stages"}))
       for (const std::size_t n : particles())
         for (const std::string& text : kind == "stages" ? casts(n) : shares(kind, n)) all.push_back(words_in(text));
-    candidates_ = accepted(all, [&](const Words& words) { plan_of(words); });
+    const std::string needs = fmt::format("ranks that have a host each on {}, and {} particles where they share them",
+                                          platform_.name, kBlock);
+    candidates_ = accepted(space_, all, needs, [&](const Words& words) { plan_of(words); });
   }
 
   std::string name() const override { return "cluster"; }
@@ -43,7 +45,7 @@ class Cluster final : public Target {
 
   std::vector<double> takes(std::size_t c, Memory& memory) const override {
     const Words& words = candidates_[c];
-    return memory.recall(fmt::format("{} {}", platform_.name, fmt::join(words, " ")), [&] {
+    return memory.recall(fmt::format("{} {}", platform_.name, fmt::join(words, " ")), figures().size(), [&] {
       const Plan plan = plan_of(words);
       const Workload work = work_of(plan, memory);
       const auto quiet = [] {};
@@ -121,7 +123,7 @@ class Cluster final : public Target {
     work.weighted_start = plan.chain.start == ChainStart::kWeighted;
     work.groups = plan.groups;
     const std::vector<double> found = memory.recall(
-        fmt::format("particle {} {} {}", name_of(work.filter), work.by_stages ? "stages" : "step", work.particles),
+        fmt::format("particle {} {} {}", name_of(work.filter), work.by_stages ? "stages" : "step", work.particles), 4,
         [&] {
           const auto m = simulated::measured(*space_.catalogue_model, work, plan.proposal, space_.where);
           return std::vector<double>{m.times.propose, m.times.weigh, m.times.chain, m.ess_share};
@@ -139,8 +141,8 @@ class Cluster final : public Target {
 
 }  // namespace
 
-std::unique_ptr<Target> cluster(const Space& space, const std::string& platform) {
-  return std::make_unique<Cluster>(space, platform);
+std::unique_ptr<Target> cluster(const Space& space, const Recording& /*unread*/) {
+  return std::make_unique<Cluster>(space);
 }
 
 }  // namespace mote::explore

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <map>
 #include <tuple>
@@ -55,21 +56,30 @@ const std::vector<std::pair<std::string, std::vector<std::string>>>& circuits() 
   return all;
 }
 
+bool has_lanes(const std::string& kind) {
+  return kind == "imh-parallel" || kind == "imh-chain" || kind == "sisr-lanes" || kind == "groups";
+}
+
 class Device final : public Target {
  public:
-  Device(const Space& space, const std::string& name, const Recording& counted)
-      : space_(space), device_(resources_of(name, space.where)), counted_(counted) {
+  Device(const Space& space, const Recording& counted)
+      : space_(space), device_(resources_of(space.detail, space.where)), counted_(counted) {
     std::vector<std::string> names;
     for (const auto& [kind, variants] : circuits()) names.push_back(kind);
     std::vector<Words> all;
-    for (const std::string& kind : kinds_of(space_, names)) {
+    const std::vector<std::string> kinds = kinds_of(space_, names);
+    if (!space_.workers.empty() && std::none_of(kinds.begin(), kinds.end(), has_lanes))
+      throw Refusal(ExitCode::kWrongUse, {space_.where, "--workers", "a kind of circuit with lanes",
+                                          fmt::format("--kinds {}", fmt::join(kinds, ",")), "Leave it out."});
+    for (const std::string& kind : kinds) {
       if (kind == "auxiliary" && space_.kinds.empty()) continue;  // pipelines of its own: only where it is asked for
       for (const std::string& variant : variants_of(kind))
         for (const std::size_t lanes : lanes_of(kind))
           for (const std::size_t n : particles())
             for (const int bits : more_bits()) all.push_back(words_of(kind, variant, lanes, n, bits));
     }
-    candidates_ = accepted(all, [&](const Words& words) { add_pipelines(design_of(words)); });
+    const std::string needs = "circuits with particles, auxiliary ones with a proposal of the model's own";
+    candidates_ = accepted(space_, all, needs, [&](const Words& words) { add_pipelines(design_of(words)); });
   }
 
   std::string name() const override { return fmt::format("fpga:{}", device_.name); }
@@ -86,13 +96,31 @@ class Device final : public Target {
   const std::vector<Words>& candidates() const override { return candidates_; }
   bool measures() const override { return false; }
 
+  /// Every part once: filters before pipelines, which take less.
+  std::vector<Piece> shared_work() const override {
+    std::map<std::string, Part> filters;
+    std::map<std::string, Part> pipelines;
+    for (const Words& words : candidates_) {
+      const CircuitDesign design = design_of(words);
+      const FilterCircuit circuit = circuit_of(design);
+      const FilterCircuit anchor = circuit_of(anchor_of(design));
+      const Parts parts = parts_of(*circuit.machine, {*anchor.machine, kAnchor});
+      filters.try_emplace(parts.filter.name, parts.filter);
+      pipelines.try_emplace(parts.propose.name, parts.propose);
+      pipelines.try_emplace(parts.weigh.name, parts.weigh);
+    }
+    std::vector<Piece> all;
+    for (const auto* kind : {&filters, &pipelines})
+      for (const auto& [name, part] : *kind) all.emplace_back([part](Memory& memory) { remembered(part, memory); });
+    return all;
+  }
   std::vector<double> takes(std::size_t c, Memory& memory) const override {
     const CircuitDesign design = design_of(candidates_[c]);
     const FilterCircuit circuit = circuit_of(design);
     const FilterCircuit anchor = circuit_of(anchor_of(design));
-    const hardware::Cost cost = cost_by_parts(*circuit.machine, design.registers.particles, name_of_pipelines(design),
-                                              {*anchor.machine, kAnchor}, memory);
-    const auto cycles = memory.recall(fmt::format("cycles {}", fmt::join(candidates_[c], " ")), [&] {
+    const hardware::Cost cost =
+        cost_by_parts(*circuit.machine, design.registers.particles, {*anchor.machine, kAnchor}, memory);
+    const auto cycles = memory.recall(fmt::format("cycles {}", fmt::join(candidates_[c], " ")), 1, [&] {
       return std::vector<double>{static_cast<double>(golden_cycles(circuit, design, counted_, space_.where))};
     });
     const double steps = static_cast<double>(counted_.steps.back().t);
@@ -137,8 +165,7 @@ class Device final : public Target {
     return all;
   }
   std::vector<std::size_t> lanes_of(const std::string& kind) const {
-    const bool several = kind == "imh-parallel" || kind == "imh-chain" || kind == "sisr-lanes" || kind == "groups";
-    if (!several) return {1};
+    if (!has_lanes(kind)) return {1};
     return space_.workers.empty() ? std::vector<std::size_t>{4} : space_.workers;
   }
   static Words words_of(const std::string& kind, const std::string& variant, std::size_t lanes, std::size_t n,
@@ -152,11 +179,15 @@ class Device final : public Target {
     return circuit_design_from(arguments_from("mote rtl", circuit_options(), words));
   }
 
-  /// The design whose filter stands for those of other sizes and words.
+  /// The design whose filter stands for those of other sizes and words: of the words that there are pipelines for, the
+  /// nearest to those chosen.
   CircuitDesign anchor_of(CircuitDesign design) const {
-    const std::vector<int> bits = more_bits();
-    design.more_bits =
-        *std::min_element(bits.begin(), bits.end(), [](int a, int b) { return std::abs(a) < std::abs(b); });
+    for (const int bits : more_bits()) {
+      CircuitDesign other = design;
+      other.more_bits = bits;
+      const bool nearer = std::pair(std::abs(bits), bits) < std::pair(std::abs(design.more_bits), design.more_bits);
+      if (nearer && pipelines_.contains(kind_of(other))) design = other;
+    }
     design.registers.particles = design.registers.draws = kAnchor;
     return design;
   }
@@ -165,9 +196,6 @@ class Device final : public Target {
   using Kind = std::tuple<std::string, int, bool>;
   static Kind kind_of(const CircuitDesign& design) {
     return {design.proposal, design.more_bits, design.variant.overlapped};
-  }
-  static std::string name_of_pipelines(const CircuitDesign& design) {
-    return fmt::format("{} {}{}", design.proposal, design.more_bits, design.variant.overlapped ? " overlapped" : "");
   }
   void add_pipelines(const CircuitDesign& design) {
     const Kind kind = kind_of(design);
@@ -178,12 +206,15 @@ class Device final : public Target {
     return filter_circuit(space_.catalogue_model, space_.model, design, pipelines_.at(kind_of(design)));
   }
 
-  /// "ungm-sisr-lanes-4": names a folder of its own, whatever file the model is.
+  /// "ungm-sisr-lanes-1000-4--2": names a folder of its own, whatever file the model is.
   std::string folder_of(const Words& words) const {
+    const auto is_option = [](const std::string& word) {
+      return word.starts_with("-") && !std::isdigit(static_cast<unsigned char>(word[1]));
+    };
     std::string name = space_.model.substr(space_.model.find_last_of('/') + 1);
     name = name.substr(0, name.rfind(".toml"));
     for (const std::string& word : words)
-      if (!word.starts_with("-")) name += "-" + word;
+      if (!is_option(word)) name += "-" + word;
     return shell_word(name);
   }
 
@@ -196,8 +227,8 @@ class Device final : public Target {
 
 }  // namespace
 
-std::unique_ptr<Target> device(const Space& space, const std::string& name, const Recording& counted) {
-  return std::make_unique<Device>(space, name, counted);
+std::unique_ptr<Target> device(const Space& space, const Recording& counted) {
+  return std::make_unique<Device>(space, counted);
 }
 
 }  // namespace mote::explore

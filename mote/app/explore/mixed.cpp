@@ -59,7 +59,8 @@ class Mixed final : public Target {
               if (std::find(all.begin(), all.end(), words) == all.end()) all.push_back(words);
             }
     }
-    candidates_ = accepted(all, [&](const Words& words) { make(words); });
+    candidates_ = accepted(space_, all, "filters with particles, currents, bits and copies",
+                           [&](const Words& words) { make(words); });
     for (const Words& words : candidates_) takes_.push_back(found_takes(words));
   }
 
@@ -195,6 +196,8 @@ class Mixed final : public Target {
 
 }  // namespace
 
-std::unique_ptr<Target> mixed_mode(const Space& space) { return std::make_unique<Mixed>(space); }
+std::unique_ptr<Target> mixed_mode(const Space& space, const Recording& /*unread*/) {
+  return std::make_unique<Mixed>(space);
+}
 
 }  // namespace mote::explore

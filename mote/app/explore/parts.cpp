@@ -5,27 +5,20 @@
 
 #include <fmt/format.h>
 
+#include "mote/app/files/facts.hpp"
+#include "mote/hardware/bench.hpp"
+
 namespace mote::explore {
 namespace {
 
 using hardware::PartCost;
 
-PartCost remembered(const std::string& name, const hardware::Circuit& circuit, Memory& memory) {
-  const std::vector<double> found = memory.recall("part " + name, [&] {
-    const PartCost part = hardware::part_cost(circuit);
-    return std::vector<double>{static_cast<double>(part.area.lut), static_cast<double>(part.area.ff),
-                               static_cast<double>(part.area.dsp), static_cast<double>(part.area.bram18), part.path_ns};
-  });
-  const auto whole = [&](std::size_t k) { return static_cast<int>(found[k]); };
-  return {{whole(0), whole(1), whole(2), whole(3)}, found[4]};
-}
-
-/// What a filter without its pipelines depends on.
-std::string name_of_filter(const hardware::Machine& machine) {
-  std::string name = fmt::format("filter {}", machine.architecture().module);
-  for (const hardware::Parameter& parameter : machine.parameters())
-    name += fmt::format(" {}={}", parameter.name, parameter.value);
-  return name;
+/// Circuits of the same text, parameters and tables are the same part.
+Part part_of(hardware::Circuit circuit) {
+  std::string text = hardware::bench_module("part", {circuit}, "");
+  for (const hardware::Source& source : circuit.sources) text += source.text;
+  for (const hardware::Memory& memory : circuit.memories) text += memory.text();
+  return {fmt::format("part {} {} {}", circuit.module, text.size(), checksum_of(text)), std::move(circuit)};
 }
 
 /// Particles a lane that memory blocks are made for: two sets of them fill a block of 1024 words; for fewer there is
@@ -37,16 +30,30 @@ double deep(std::size_t particles, unsigned lanes) {
 
 }  // namespace
 
-hardware::Cost cost_by_parts(const hardware::Machine& machine, std::size_t particles, const std::string& pipelines,
-                             const Anchor& anchor, Memory& memory) {
-  const hardware::ModelCircuit& model = machine.model();
+Parts parts_of(const hardware::Machine& machine, const Anchor& anchor) {
+  return {part_of(hardware::filter_alone(anchor.machine)), part_of(machine.model().propose),
+          part_of(machine.model().weigh)};
+}
+
+PartCost remembered(const Part& part, Memory& memory) {
+  const std::vector<double> found = memory.recall(part.name, 5, [&] {
+    const PartCost cost = hardware::part_cost(part.circuit);
+    return std::vector<double>{static_cast<double>(cost.area.lut), static_cast<double>(cost.area.ff),
+                               static_cast<double>(cost.area.dsp), static_cast<double>(cost.area.bram18), cost.path_ns};
+  });
+  const auto whole = [&](std::size_t k) { return static_cast<int>(found[k]); };
+  return {{whole(0), whole(1), whole(2), whole(3)}, found[4]};
+}
+
+hardware::Cost cost_by_parts(const hardware::Machine& machine, std::size_t particles, const Anchor& anchor,
+                             Memory& memory) {
+  const Parts parts = parts_of(machine, anchor);
   const unsigned lanes = machine.capacity().lanes;
-  PartCost filter = remembered(name_of_filter(anchor.machine), hardware::filter_alone(anchor.machine), memory);
+  PartCost filter = remembered(parts.filter, memory);
   const int tables = std::min(static_cast<int>(lanes), filter.area.bram18);
   filter.area.bram18 = tables + static_cast<int>(std::ceil((filter.area.bram18 - tables) * deep(particles, lanes) /
                                                            deep(anchor.particles, lanes)));
-  return hardware::cost_of_parts(machine, remembered("propose " + pipelines, model.propose, memory),
-                                 remembered("weigh " + pipelines, model.weigh, memory), filter);
+  return hardware::cost_of_parts(machine, remembered(parts.propose, memory), remembered(parts.weigh, memory), filter);
 }
 
 }  // namespace mote::explore

@@ -14,13 +14,30 @@ struct Anchor {
   std::size_t particles;
 };
 
-/// The cost of a machine by hardware::cost_of_parts(); `pipelines` names what its pipelines are. Its filter is the
-/// anchor's: look-up tables and flip-flops hardly depend on N (some 20 a bit of it), memory blocks beside a table a
-/// lane grow with N/lanes from 512 on.
+/// A part with a name that tells its text from every other's.
+struct Part {
+  std::string name;
+  hardware::Circuit circuit;
+};
+
+/// The parts of a machine: its filter is the anchor's.
+struct Parts {
+  Part filter, propose, weigh;
+};
+
+Parts parts_of(const hardware::Machine& machine, const Anchor& anchor);
+
+/// What a part costs, which the memory keeps.
 ///
 /// error   Refusal (kOutsideTool) when yosys is missing or fails
-/// cost    5 to 60 s a part that is not remembered
-hardware::Cost cost_by_parts(const hardware::Machine& machine, std::size_t particles, const std::string& pipelines,
-                             const Anchor& anchor, Memory& memory);
+/// cost    1 to 20 s where it is not remembered
+hardware::PartCost remembered(const Part& part, Memory& memory);
+
+/// The cost of a machine by hardware::cost_of_parts(). Look-up tables and flip-flops of a filter hardly depend on N
+/// (some 20 a bit of it), memory blocks beside a table a lane grow with N/lanes from 512 on.
+///
+/// error   as remembered()
+hardware::Cost cost_by_parts(const hardware::Machine& machine, std::size_t particles, const Anchor& anchor,
+                             Memory& memory);
 
 }  // namespace mote::explore

@@ -31,7 +31,8 @@ class Processor final : public Target {
         const Plan plan = plan_of(words);
         return plan.particles > kMostSlow && !simd_has(plan);
       });
-    candidates_ = accepted(all, [&](const Words& words) { make(plan_of(words)); });
+    candidates_ =
+        accepted(space_, all, "filters with particles and threads", [&](const Words& words) { make(plan_of(words)); });
   }
 
   std::string name() const override { return "cpu"; }
@@ -44,7 +45,7 @@ class Processor final : public Target {
 
   std::vector<double> takes(std::size_t c, Memory& memory) const override {
     const Plan plan = plan_of(candidates_[c]);
-    return memory.recall(fmt::format("{}", fmt::join(candidates_[c], " ")), [&] {
+    return memory.recall(fmt::format("{}", fmt::join(candidates_[c], " ")), figures().size(), [&] {
       return std::vector<double>{seconds_per_step(plan), static_cast<double>(plan.threads)};
     });
   }

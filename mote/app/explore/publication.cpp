@@ -36,6 +36,7 @@ Json candidate_json(const Exploration& found, std::size_t c) {
   Json json{{"words", fmt::format("{}", fmt::join(found.target->candidates()[c], " "))},
             {"command", found.command_of(c)},
             {"runs", s.runs},
+            {"collapsed", s.collapsed},
             {"rmse", nullptr},
             {"rmse_interval", nullptr},
             {"rmse_truth", nullptr}};
@@ -120,11 +121,14 @@ std::string verdict(const Exploration& found) {
   return text;
 }
 
+bool judged(const Standing& s) { return s.runs > 0 && !s.collapsed; }
+
 std::string headline(const Exploration& found) {
-  const auto judged = std::count_if(found.finding.standings.begin(), found.finding.standings.end(),
-                                    [](const Standing& s) { return s.runs > 0; });
-  return fmt::format("{} on {}: {} candidates, {} judged; RMSE of {} to the {}; {}", found.model, found.target->name(),
-                     found.finding.standings.size(), judged, found.jury->design().target.name,
+  const auto& all = found.finding.standings;
+  const auto collapsed = std::count_if(all.begin(), all.end(), [](const Standing& s) { return s.collapsed; });
+  return fmt::format("{} on {}: {} candidates, {} judged{}; RMSE of {} to the {}; {}", found.model,
+                     found.target->name(), all.size(), std::count_if(all.begin(), all.end(), judged),
+                     collapsed > 0 ? fmt::format(", {} collapsed", collapsed) : "", found.jury->design().target.name,
                      found.jury->design().reference.exact ? "exact means" : "means of a large run", found.source);
 }
 
@@ -144,13 +148,12 @@ report::Chart chart_of(const Exploration& found, std::size_t figure) {
   std::vector<std::size_t> others;
   const auto& frontier = found.finding.frontier;
   for (std::size_t c = 0; c < found.finding.standings.size(); ++c)
-    if (found.finding.standings[c].runs > 0 && std::find(frontier.begin(), frontier.end(), c) == frontier.end())
+    if (judged(found.finding.standings[c]) && std::find(frontier.begin(), frontier.end(), c) == frontier.end())
       others.push_back(c);
   return {.title = fmt::format("Error against {}", axis.name),
           .x_label = label_of(axis) + (axis.name == "time" ? " a step" : ""),
           .y_label = fmt::format("RMSE of {}", found.jury->design().target.name),
-          .series = {series_of(found, "beaten in every figure", others, figure),
-                     series_of(found, "frontier", frontier, figure),
+          .series = {series_of(found, "beaten", others, figure), series_of(found, "frontier", frontier, figure),
                      series_of(found, "pick", {found.finding.pick}, figure)},
           .log_x = true,
           .log_y = true};
@@ -158,13 +161,16 @@ report::Chart chart_of(const Exploration& found, std::size_t figure) {
 
 std::vector<std::string> notes_of(const Exploration& found) {
   const compare::Design& d = found.jury->design();
-  return {fmt::format("Figures: {}.", found.target->meaning()),
-          fmt::format("RMSE: of the estimated {} to the means of the {}, root of the mean over steps and runs; its "
-                      "interval is of 95 % by the spread of the runs.",
-                      d.target.name, d.reference.name),
-          "Every candidate is judged on the same recordings by the same seeds; by successive halving the better half "
-          "has twice as many runs.",
-          "The frontier: candidates that none other beats, or equals, in error and every axis at once."};
+  return {
+      fmt::format("Figures: {}.", found.target->meaning()),
+      fmt::format("RMSE: of the estimated {} to the means of the {}, root of the mean over steps and runs; its "
+                  "interval is of 95 % by the spread of the runs.",
+                  d.target.name, d.reference.name),
+      "Every candidate is judged on the same recordings by the same seeds; by successive halving the better half "
+      "has twice as many runs.",
+      "The frontier: candidates that nobody beats, all judged by as many runs. Whoever errs no more, takes no more on "
+      "any axis, and is better in one of them, beats another; of two that had unequal runs, by those that both had.",
+      "Whoever collapsed, with all weights zero, is left out."};
 }
 
 }  // namespace

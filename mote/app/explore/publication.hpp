@@ -25,8 +25,8 @@ struct Exploration {
 };
 
 /// {model, target, source, reference, goal, limits, candidates, pick, frontier, all}: candidates with `words`,
-/// `command`, their figures, `rmse`, `rmse_interval`, `rmse_truth`, `runs`; of the pick also `feasible`, `breaks` and
-/// by which factor; null stands for what is not known.
+/// `command`, their figures, `rmse`, `rmse_interval`, `rmse_truth`, `runs`, `collapsed`; of the pick also `feasible`,
+/// `breaks` and by which factor; null stands for what is not known.
 nlohmann::json exploration_json(const Exploration& found);
 
 /// The frontier, the pick, and in the last line its command.

@@ -3,50 +3,25 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "mote/app/commands/particle_list.hpp"
 #include "mote/app/commands/quantity.hpp"
+#include "mote/app/compare/scenes.hpp"
 #include "mote/app/files/text.hpp"
-#include "mote/base/draws.hpp"
 #include "mote/base/refusal.hpp"
+#include "mote/software/simd/isa.hpp"
 #include "mote/software/threads.hpp"
 
 namespace mote::explore {
 namespace {
 
+/// What circuits are given.
+constexpr compare::SceneBounds kMost{65535, 64};
 constexpr long long kMostRuns = 100'000;
 constexpr long long kMostSeed = 9223372036854775807LL;
 
 std::size_t count_from(const Arguments& arguments, const std::string& option, long long most) {
   return static_cast<std::size_t>(arguments.integer(option, 1, most));
-}
-
-void simulate(const Arguments& arguments, Material& material) {
-  compare::Design& design = material.design;
-  const auto steps = static_cast<Step>(arguments.integer("--steps", 1, 65535));
-  const std::size_t recordings = count_from(arguments, "--recordings", 10'000);
-  design.catalogue_model =
-      find_model(design.model, design.where)
-          .make(Settings(design.where, material.settings), frame_header(arguments.integer("--columns", 1, 64)));
-  for (std::size_t k = 0; k < recordings; ++k)
-    design.scenes.push_back(simulated_scene(*design.catalogue_model, steps, design.seed + k));
-  material.source = fmt::format("{} simulated recording{} of {} steps (seeds {} to {})", recordings,
-                                recordings == 1 ? "" : "s", steps, design.seed, design.seed + recordings - 1);
-}
-
-void load(const Arguments& arguments, Material& material) {
-  compare::Design& design = material.design;
-  for (const char* option : {"--steps", "--recordings", "--columns"})
-    if (arguments.given(option))
-      throw Refusal(ExitCode::kWrongUse, {design.where, option, "simulated recordings", "--data with one of its own",
-                                          fmt::format("Leave out {} or --data.", option)});
-  Job job =
-      load_job(design.model, arguments.text("--data"), arguments.text("--truth"), material.settings, design.where);
-  design.catalogue_model = job.model;
-  design.scenes.push_back({std::move(job.recording), job.truth ? std::move(*job.truth) : Truth{}});
-  material.notes = std::move(job.notes);
-  material.source = arguments.text("--data");
 }
 
 /// The words between commas.
@@ -57,16 +32,12 @@ std::vector<std::string> names_from(const Arguments& arguments, const std::strin
 }
 
 Space space_from(const Arguments& arguments, const Material& material) {
-  Space space{material.design.model,
-              material.design.where,
-              material.settings,
-              material.design.catalogue_model,
-              {},
-              {},
-              {},
-              {},
-              {},
-              {}};
+  Space space;
+  space.model = material.design.model;
+  space.where = material.design.where;
+  space.settings = arguments.list("--set");
+  space.catalogue_model = material.design.catalogue_model;
+  space.platform = arguments.text("--platform");
   if (arguments.given("--kinds")) space.kinds = names_from(arguments, "--kinds");
   if (arguments.given("--particles")) space.particles = particle_list_from(arguments);
   if (arguments.given("--workers"))
@@ -82,6 +53,65 @@ Space space_from(const Arguments& arguments, const Material& material) {
     for (const long long b : integer_list_from(arguments, "--bits", 1, 14, "6,8,10"))
       space.bits.push_back(static_cast<int>(b));
   return space;
+}
+
+/// "cpu, cluster, mixed or fpga:DEVICE"
+std::string listed_targets() {
+  std::vector<std::string> names;
+  for (const TargetKind& kind : target_kinds())
+    names.push_back(kind.name + (kind.detail.empty() ? "" : ":" + kind.detail));
+  const std::string last = names.back();
+  names.pop_back();
+  return fmt::format("{} or {}", fmt::join(names, ", "), last);
+}
+
+Refusal unknown_target(const std::string& where, const std::string& asked) {
+  const std::string name = asked.substr(0, asked.find(':'));
+  std::string example = target_kinds().front().example;
+  for (const TargetKind& kind : target_kinds())
+    if (kind.name == name) example = kind.example;
+  return {ExitCode::kWrongUse,
+          {where, "--target", listed_targets(), in_quotes(asked), fmt::format("Pass --target {}.", example)}};
+}
+
+/// The kind that --target names, and what stands behind its colon.
+std::pair<const TargetKind&, std::string> kind_of(const Arguments& arguments) {
+  const std::string asked = arguments.required("--target", listed_targets(), "Pass --target cpu.");
+  const std::size_t colon = asked.find(':');
+  const std::string detail = colon == std::string::npos ? "" : asked.substr(colon + 1);
+  for (const TargetKind& kind : target_kinds())
+    if (kind.name == asked.substr(0, colon) && kind.detail.empty() == (colon == std::string::npos))
+      return {kind, detail};
+  throw unknown_target(arguments.where(), asked);
+}
+
+/// What only other targets read is no use to be asked for.
+void refuse_unread(const Arguments& arguments, const TargetKind& kind) {
+  for (const TargetKind& other : target_kinds())
+    for (const std::string& option : other.options)
+      if (arguments.given(option) && std::find(kind.options.begin(), kind.options.end(), option) == kind.options.end())
+        throw Refusal(ExitCode::kWrongUse,
+                      {arguments.where(), option, "--target " + other.example, "--target " + arguments.text("--target"),
+                       "Leave it out, or pass another --target."});
+}
+
+/// Directions of a frame that the model does not have are no use to be asked for.
+void refuse_unread_columns(const Arguments& arguments, const compare::Design& design) {
+  if (!arguments.given("--columns")) return;
+  const std::vector<Column> columns = design.catalogue_model->columns();
+  const std::string last = "doa" + arguments.text("--columns");
+  if (std::any_of(columns.begin(), columns.end(), [&](const Column& c) { return c.name == last; })) return;
+  throw Refusal(ExitCode::kWrongUse,
+                {design.where, "--columns", "a model of frames, as doa", in_quotes(design.model), "Leave it out."});
+}
+
+design::Rungs rungs_from(const Arguments& arguments) {
+  const std::size_t first = count_from(arguments, "--first-runs", kMostRuns);
+  const std::size_t most = count_from(arguments, "--runs", kMostRuns);
+  if (arguments.given("--first-runs") && first > most)
+    throw Refusal(ExitCode::kWrongUse, {arguments.where(), "--first-runs", fmt::format("at most --runs {}", most),
+                                        std::to_string(first), fmt::format("Pass --runs {}.", first)});
+  return {first, most};
 }
 
 /// Figures that the target does not have cannot be limited.
@@ -114,13 +144,6 @@ std::size_t goal_from(const Arguments& arguments, const std::vector<Figure>& fig
   for (const std::size_t k : places)
     if (figures[k].option.empty() || !arguments.given(figures[k].option)) return k;
   return places.front();
-}
-
-/// A number that any change of a text changes.
-std::uint64_t digest_of(const std::string& text) {
-  std::uint64_t digest = text.size();
-  for (const char c : text) digest = mixed(digest ^ static_cast<unsigned char>(c));
-  return digest;
 }
 
 }  // namespace
@@ -179,30 +202,19 @@ Material material_from(const Arguments& arguments) {
   design.model = arguments.text("MODEL");
   design.where = arguments.where();
   design.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 0, kMostSeed));
-  material.settings = arguments.list("--set");
-  if (arguments.given("--truth") && !arguments.given("--data"))
-    throw Refusal(ExitCode::kWrongUse, {design.where, "--truth", "--data, whose truth it is", "nothing",
-                                        "Pass --data, or leave --truth out: simulated recordings have their own."});
-  if (arguments.given("--data")) {
-    load(arguments, material);
-  } else {
-    simulate(arguments, material);
-  }
+  material.source = compare::find_scenes(arguments, kMost, design, material.notes);
+  refuse_unread_columns(arguments, design);
   design.repeats = kMostRuns;  // seeds do not depend on how many runs there are
   design.target = compare::target_of(arguments.text("--error-of"), design.catalogue_model->states(), design.where);
   return material;
 }
 
 std::unique_ptr<Target> target_from(const Arguments& arguments, const Material& material) {
-  const std::string asked = arguments.required("--target", "cpu, cluster, mixed or fpga:DEVICE", "Pass --target cpu.");
-  const Space space = space_from(arguments, material);
-  const Recording& first = material.design.scenes.front().recording;
-  if (asked == "cpu") return processor(space, first);
-  if (asked == "cluster") return cluster(space, arguments.text("--platform"));
-  if (asked.starts_with("fpga:")) return device(space, asked.substr(5), first);
-  if (asked == "mixed") return mixed_mode(space);
-  throw Refusal(ExitCode::kWrongUse, {space.where, "--target", "cpu, cluster, mixed or fpga:DEVICE", in_quotes(asked),
-                                      asked == "fpga" ? "Pass --target fpga:xc7a100t." : "Pass --target cpu."});
+  const auto [kind, detail] = kind_of(arguments);
+  refuse_unread(arguments, kind);
+  Space space = space_from(arguments, material);
+  space.detail = detail;
+  return kind.make(space, material.design.scenes.front().recording);
 }
 
 Order order_from(const Arguments& arguments, const Target& target) {
@@ -216,27 +228,31 @@ Order order_from(const Arguments& arguments, const Target& target) {
       order.limits.push_back({k, limit_from(arguments, figures[k])});
   }
   order.goal = goal_from(arguments, figures);
-  order.rungs = {count_from(arguments, "--first-runs", kMostRuns), count_from(arguments, "--runs", kMostRuns)};
+  order.rungs = rungs_from(arguments);
   order.threads = arguments.given("--threads") ? count_from(arguments, "--threads", 4096) : cores();
   return order;
 }
 
-nlohmann::json belongs_of(const Arguments& arguments, const Material& material, const Target& target) {
-  std::vector<std::string> candidates;
-  for (const Words& words : target.candidates()) candidates.push_back(fmt::format("{}", fmt::join(words, " ")));
-  nlohmann::json all{{"exploration", 1},
-                     {"model", material.design.model},
-                     {"settings", material.settings},
-                     {"target", target.name()},
-                     {"platform", arguments.text("--platform")},
-                     {"source", material.source},
-                     {"seed", material.design.seed},
-                     {"state", material.design.target.name},
-                     {"candidates", candidates}};
-  for (const char* file : {"--data", "--truth"})
-    if (arguments.given(file)) all[file] = digest_of(read_text(arguments.text(file)));
-  if (material.design.model.ends_with(".toml")) all["text"] = digest_of(read_text(material.design.model));
-  return all;
+RunFacts facts_of(const Arguments& arguments, const Material& material, const Target& target) {
+  const compare::Design& design = material.design;
+  std::string candidates;
+  for (const Words& words : target.candidates()) candidates += fmt::format("{}\n", fmt::join(words, " "));
+  std::string recordings;
+  for (const Scene& scene : design.scenes) recordings += summed_up(scene.recording) + '\n';
+  RunFacts facts = model_facts(design.model, arguments.list("--set"));
+  facts.emplace_back("--target", target.name());
+  const std::string platform = arguments.text("--platform");
+  facts.emplace_back("--platform", platform);
+  if (platform.ends_with(".xml")) facts.emplace_back("platform of checksum", checksum_of(read_text(platform)));
+  facts.emplace_back("candidates of checksum", checksum_of(candidates));
+  facts.emplace_back("recordings", material.source);
+  facts.emplace_back("recordings of checksum", checksum_of(recordings));
+  if (arguments.given("--truth"))
+    facts.emplace_back("truth of checksum", checksum_of(read_text(arguments.text("--truth"))));
+  facts.emplace_back("--seed", std::to_string(design.seed));
+  facts.emplace_back("--error-of", design.target.name);
+  facts.emplace_back("instruction set", std::string(name_of(best_isa().value_or(Isa::kSse4))));
+  return facts;
 }
 
 }  // namespace mote::explore

@@ -11,7 +11,6 @@ std::vector<OptionSpec> explore_options();
 /// The recordings: the data's, or simulated ones, with their truths; the reference is not known yet.
 struct Material {
   compare::Design design;
-  std::vector<std::string> settings;
   std::string source;              ///< in words
   std::vector<std::string> notes;  ///< on columns that nobody reads
 };
@@ -30,7 +29,9 @@ std::unique_ptr<Target> target_from(const Arguments& arguments, const Material& 
 /// error   Refusal (kWrongUse) for a limit on what the target does not have
 Order order_from(const Arguments& arguments, const Target& target);
 
-/// What findings belong to: two explorations of which this is the same find the same.
-nlohmann::json belongs_of(const Arguments& arguments, const Material& material, const Target& target);
+/// What findings depend on: two explorations with the same facts find the same.
+///
+/// error   as read_text()
+RunFacts facts_of(const Arguments& arguments, const Material& material, const Target& target);
 
 }  // namespace mote::explore

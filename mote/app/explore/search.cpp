@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <mutex>
 #include <tuple>
 
@@ -32,17 +33,19 @@ class Search {
         told_(told),
         stop_(stop),
         error_(target.figures().size()),
-        standings_(target.candidates().size()) {}
+        standings_(target.candidates().size()),
+        sums_(target.candidates().size()) {}
 
   Finding finding() {
     find_takes();
     const Candidates near = within_reach();
-    all_runs_ = planned_runs(near.size());
-    const auto runs = design::halve(
+    for (const design::Rung& rung : design::ladder(near.size(), order_.rungs))
+      all_runs_ += rung.candidates * (rung.last - rung.first);
+    design::halve(
         near.size(), order_.rungs,
         [&](const Candidates& places, std::size_t first, std::size_t last) { judge(at(near, places), first, last); },
         [&](const Candidates& places) { return places_in(near, ranked(at(near, places))); });
-    for (std::size_t k = 0; k < near.size(); ++k) sum_up(near[k], runs[k]);
+    for (Candidates short_of = unbeaten(near); !short_of.empty(); short_of = unbeaten(near)) finish(short_of);
     return chosen(near);
   }
 
@@ -59,13 +62,32 @@ class Search {
     return all;
   }
 
+  std::size_t threads_for_takes() const { return target_.measures() ? 1 : order_.threads; }
   void find_takes() {
-    std::atomic<std::size_t> done{0};
-    in_parallel(standings_.size(), target_.measures() ? 1 : order_.threads, [&](std::size_t c) {
+    std::atomic<std::size_t> pieces{0};
+    const std::vector<Piece> shared = target_.shared_work();
+    in_parallel(shared.size(), threads_for_takes(), [&](std::size_t k) {
       refuse_stopped();
-      standings_[c].takes = target_.takes(c, journal_);
+      shared[k](journal_);
+      tell("parts", ++pieces, shared.size());
+    });
+    std::atomic<std::size_t> done{0};
+    in_parallel(standings_.size(), threads_for_takes(), [&](std::size_t c) {
+      refuse_stopped();
+      find_takes_of(c);
       tell("candidates", ++done, standings_.size());
     });
+  }
+  /// Whoever collapses while it is timed is out, and nobody else.
+  void find_takes_of(std::size_t c) {
+    Standing& s = standings_[c];
+    try {
+      s.takes = target_.takes(c, journal_);
+    } catch (const Refusal& refusal) {
+      if (refusal.code() != ExitCode::kCollapsed) throw;
+      s.collapsed = true;
+      s.takes.assign(error_, kInfinity);
+    }
   }
 
   /// Limits on what candidates take, without that on the error.
@@ -77,23 +99,12 @@ class Search {
   Candidates within_reach() const {
     const std::vector<Limit> limits = known_limits();
     double least = kInfinity;
-    for (const Standing& s : standings_) least = std::min(least, design::excess(s.takes, limits));
+    for (const Standing& s : standings_)
+      if (!s.collapsed) least = std::min(least, design::excess(s.takes, limits));
     Candidates all;
     for (std::size_t c = 0; c < standings_.size(); ++c)
-      if (design::excess(standings_[c].takes, limits) <= kFar * least) all.push_back(c);
+      if (!standings_[c].collapsed && design::excess(standings_[c].takes, limits) <= kFar * least) all.push_back(c);
     return all;
-  }
-
-  std::size_t planned_runs(std::size_t left) const {
-    std::size_t sum = 0;
-    std::size_t done = 0;
-    for (std::size_t wanted = std::min(order_.rungs.first, order_.rungs.most);;
-         wanted = std::min(2 * wanted, order_.rungs.most)) {
-      sum += left * (wanted - done);
-      if (wanted == order_.rungs.most) return sum;
-      done = wanted;
-      left = (left + 1) / 2;
-    }
   }
 
   /// Runs one after the other on many threads, those of a recording together.
@@ -108,19 +119,16 @@ class Search {
     for (const std::size_t c : judged) sum_up(c, last);
   }
 
-  std::vector<Errors> errors_of(std::size_t c, std::size_t runs) const {
-    std::vector<Errors> all;
-    for (std::size_t run = 0; run < runs; ++run) all.push_back(*journal_.errors(c, run));
-    return all;
-  }
-
   /// The mean and, from the spread of the runs, an interval.
   void sum_up(std::size_t c, std::size_t runs) {
     double sum = 0;
     double squares = 0;
     double truth = 0;
-    for (const Errors& e : errors_of(c, runs)) {
-      sum += e.reference;
+    std::vector<double>& sums = sums_[c];
+    sums.assign(1, 0);
+    for (std::size_t run = 0; run < runs; ++run) {
+      const Errors e = *journal_.errors(c, run);
+      sums.push_back(sum += e.reference);
       squares += e.reference * e.reference;
       truth += e.truth;
     }
@@ -131,9 +139,46 @@ class Search {
                               : kSigmas * std::sqrt(std::max(0.0, squares / n - mean * mean) / (n - 1));
     Standing& s = standings_[c];
     s.runs = runs;
+    s.collapsed = std::isinf(mean);
     s.rmse = std::sqrt(mean);
     s.interval = {std::isinf(mean) ? mean : std::sqrt(std::max(0.0, mean - spread)), std::sqrt(mean + spread)};
     s.rmse_truth = std::sqrt(truth / n);
+  }
+
+  /// Makes the runs that candidates are short of.
+  void finish(const Candidates& short_of) {
+    for (const std::size_t c : short_of) all_runs_ += order_.rungs.most - standings_[c].runs;
+    std::map<std::size_t, Candidates> by_runs;
+    for (const std::size_t c : short_of) by_runs[standings_[c].runs].push_back(c);
+    for (const auto& [runs, candidates] : by_runs) judge(candidates, runs, order_.rungs.most);
+  }
+
+  /// What counts on the frontier beside the error.
+  Point axes_of(std::size_t c) const {
+    const std::vector<Figure> figures = target_.figures();
+    Point all;
+    for (std::size_t f = 0; f < figures.size(); ++f)
+      if (figures[f].axis) all.push_back(standings_[c].takes[f]);
+    return all;
+  }
+  /// Whether a is on no axis and in no error, by the runs that both have had, more than b, and somewhere less.
+  bool beats(std::size_t a, std::size_t b) const {
+    const std::size_t common = std::min(standings_[a].runs, standings_[b].runs);
+    Point of_a = axes_of(a);
+    Point of_b = axes_of(b);
+    of_a.push_back(sums_[a][common]);
+    of_b.push_back(sums_[b][common]);
+    return design::dominates(of_a, of_b);
+  }
+  /// Candidates that nobody beats, and that not all runs have judged yet.
+  Candidates unbeaten(const Candidates& near) const {
+    Candidates all = near;
+    std::erase_if(all, [&](std::size_t b) {
+      return standings_[b].collapsed || standings_[b].runs >= order_.rungs.most ||
+             std::any_of(near.begin(), near.end(),
+                         [&](std::size_t a) { return !standings_[a].collapsed && beats(a, b); });
+    });
+    return all;
   }
 
   Point point(std::size_t c, double error) const {
@@ -155,6 +200,7 @@ class Search {
   std::vector<std::size_t> depths_of(const Candidates& all) const {
     std::vector<std::size_t> depths(standings_.size(), 0);
     Candidates left = all;
+    std::erase_if(left, [&](std::size_t c) { return standings_[c].collapsed; });
     for (std::size_t depth = 0; !left.empty(); ++depth) {
       std::vector<Point> points;
       for (const std::size_t c : left) points.push_back({goal_of(c), standings_[c].rmse});
@@ -170,40 +216,39 @@ class Search {
     const std::vector<std::size_t> depths = depths_of(all);
     const auto key = [&](std::size_t c) {
       const double apart = std::isinf(most) ? 0 : std::abs(std::log(standings_[c].rmse / most));
-      return std::tuple(design::excess(standings_[c].takes, known), depths[c], apart, goal_of(c), c);
+      return std::tuple(standings_[c].collapsed, design::excess(standings_[c].takes, known), depths[c], apart,
+                        goal_of(c), c);
     };
     std::sort(all.begin(), all.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
     return all;
   }
 
+  /// The pick and the frontier are among those whom all runs have judged.
   Finding chosen(const Candidates& near) const {
-    Finding finding{standings_, {}, 0, false, {}};
-    Candidates left;
+    Candidates left = near;
+    std::erase_if(left,
+                  [&](std::size_t c) { return standings_[c].collapsed || standings_[c].runs < order_.rungs.most; });
+    if (left.empty()) refuse_collapsed();
     std::vector<Point> points;
-    for (const std::size_t c : near)
-      if (standings_[c].runs >= order_.rungs.most) {
-        left.push_back(c);
-        points.push_back(point(c, standings_[c].rmse));
-      }
+    for (const std::size_t c : left) points.push_back(point(c, standings_[c].rmse));
     const design::Choice choice = design::best_within(points, order_.limits, order_.goal);
-    finding.pick = left[choice.place];
-    finding.feasible = choice.feasible;
-    finding.broken = choice.broken;
-    finding.frontier = frontier_of(near);
-    return finding;
+    return {standings_, frontier_of(left), left[choice.place], choice.feasible, choice.broken};
   }
-  Candidates frontier_of(const Candidates& near) const {
-    const std::vector<Figure> figures = target_.figures();
+  Candidates frontier_of(const Candidates& finalists) const {
     std::vector<Point> points;
-    for (const std::size_t c : near) {
-      Point& axes = points.emplace_back(Point{standings_[c].rmse});
-      for (std::size_t f = 0; f < figures.size(); ++f)
-        if (figures[f].axis) axes.push_back(standings_[c].takes[f]);
+    for (const std::size_t c : finalists) {
+      points.push_back(axes_of(c));
+      points.back().push_back(standings_[c].rmse);
     }
-    Candidates found = at(near, design::frontier(points));
+    Candidates found = at(finalists, design::frontier(points));
     std::stable_sort(found.begin(), found.end(),
                      [&](std::size_t a, std::size_t b) { return standings_[a].rmse < standings_[b].rmse; });
     return found;
+  }
+  [[noreturn]] void refuse_collapsed() const {
+    throw Refusal(ExitCode::kCollapsed,
+                  {jury_.design().where, target_.name(), "a candidate whose weights are not all zero", "none",
+                   "Pass larger --particles, other --kinds, or looser budgets."});
   }
 
   void tell(const char* what, std::size_t done, std::size_t all) {
@@ -225,6 +270,7 @@ class Search {
   const std::atomic<bool>& stop_;
   std::size_t error_;  ///< the figure behind those of the target
   std::vector<Standing> standings_;
+  std::vector<std::vector<double>> sums_;  ///< of a candidate's errors over its first runs
   std::atomic<std::size_t> done_runs_{0};
   std::size_t all_runs_ = 0;
   std::mutex telling_;

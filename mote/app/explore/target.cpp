@@ -11,7 +11,19 @@
 
 namespace mote::explore {
 
-std::vector<Words> accepted(const std::vector<Words>& all, const std::function<void(const Words&)>& accepts) {
+const std::vector<TargetKind>& target_kinds() {
+  static const std::vector<TargetKind> all{{"cpu", "", "cpu", {}, processor},
+                                           {"cluster", "", "cluster", {"--platform"}, cluster},
+                                           {"mixed", "", "mixed", {"--currents", "--bits"}, mixed_mode},
+                                           {"fpga", "DEVICE", "fpga:xc7a100t", {"--more-bits"}, device}};
+  return all;
+}
+
+std::vector<Words> accepted(const Space& space, const std::vector<Words>& all, const std::string& needs,
+                            const std::function<void(const Words&)>& accepts) {
+  if (all.empty())
+    throw Refusal(ExitCode::kWrongUse, {space.where, "--kinds, --particles, --workers", needs, "no candidate",
+                                        "Leave some of them out, or pass others."});
   std::vector<Words> left;
   std::optional<Refusal> first;
   for (const Words& words : all) {
@@ -23,7 +35,7 @@ std::vector<Words> accepted(const std::vector<Words>& all, const std::function<v
       if (!first) first = refusal;
     }
   }
-  if (left.empty() && first) throw *first;
+  if (left.empty()) throw *first;
   return left;
 }
 

@@ -26,11 +26,16 @@ struct Figure {
 class Memory {
  public:
   virtual ~Memory() = default;
-  /// What is kept under the name, or what `find` finds, which is kept then.
+  /// What is kept under the name, or what `find` finds, which is kept then; `values` are as many as there have to be.
   ///
-  /// shape   several threads may ask at once
-  virtual std::vector<double> recall(const std::string& name, const std::function<std::vector<double>()>& find) = 0;
+  /// shape   several threads may ask at once; those that ask for the same wait for the first
+  /// error   Refusal (kBadData) where as many are not kept
+  virtual std::vector<double> recall(const std::string& name, std::size_t values,
+                                     const std::function<std::vector<double>()>& find) = 0;
 };
+
+/// A piece of work whose findings the memory keeps.
+using Piece = std::function<void(Memory& memory)>;
 
 /// A machine of some kind with its candidates.
 class Target {
@@ -42,7 +47,11 @@ class Target {
   virtual const std::vector<Words>& candidates() const = 0;
   /// Whether its figures are measured on this machine: one at a time, with nothing else going on.
   virtual bool measures() const = 0;
+  /// What candidates have in common, to be found before what each takes: different pieces, the longest first.
+  virtual std::vector<Piece> shared_work() const { return {}; }
   /// What a candidate takes, figure by figure.
+  ///
+  /// error   Refusal (kCollapsed) when all weights were zero
   virtual std::vector<double> takes(std::size_t candidate, Memory& memory) const = 0;
   /// A run of it on a recording; several threads may run at once.
   ///
@@ -57,6 +66,8 @@ struct Space {
   std::string model, where;
   std::vector<std::string> settings;  ///< --set
   std::shared_ptr<const CatalogueModel> catalogue_model;
+  std::string detail;                  ///< what --target says behind a colon
+  std::string platform;                ///< of a simulated cluster
   std::vector<std::string> kinds;      ///< of filters or circuits; empty: all
   std::vector<std::size_t> particles;  ///< empty: the target's
   std::vector<std::size_t> workers;    ///< threads, ranks, or lanes; empty: the target's
@@ -64,11 +75,25 @@ struct Space {
   std::vector<int> currents, bits;     ///< I_a in nA, and of ADCs; empty: the target's
 };
 
+/// A kind of target, as --target names it.
+struct TargetKind {
+  std::string name;                  ///< "cpu"
+  std::string detail;                ///< "DEVICE": what stands behind a colon; empty: nothing does
+  std::string example;               ///< "fpga:xc7a100t"
+  std::vector<std::string> options;  ///< for candidates, of those that not every target reads
+  /// `recording` is what candidates are timed or counted on.
+  std::unique_ptr<Target> (*make)(const Space& space, const Recording& recording);
+};
+
+/// All kinds of targets: a new one is a line here and a file that makes it.
+const std::vector<TargetKind>& target_kinds();
+
 /// Keeps the candidates that `accepts` does not refuse (Refusal, kWrongUse): what a model, a filter or a circuit does
-/// not have.
+/// not have. `needs` says what a candidate has to have, to whom none is left.
 ///
-/// error   the first refusal when none is left
-std::vector<Words> accepted(const std::vector<Words>& all, const std::function<void(const Words&)>& accepts);
+/// error   the first refusal when none is left, or Refusal (kWrongUse) when there was none to begin with
+std::vector<Words> accepted(const Space& space, const std::vector<Words>& all, const std::string& needs,
+                            const std::function<void(const Words&)>& accepts);
 
 /// Kinds that were told, out of those there are.
 ///
@@ -84,17 +109,17 @@ std::unique_ptr<Target> processor(const Space& space, const Recording& timed);
 /// Candidate filters on ranks of a simulated cluster, with particles timed on a core of this machine.
 ///
 /// error   Refusal (kOutsideTool) without SimGrid, (kWrongUse) for a platform that there is not
-std::unique_ptr<Target> cluster(const Space& space, const std::string& platform);
+std::unique_ptr<Target> cluster(const Space& space, const Recording& unread);
 
 /// Candidate circuits on a device: cycles by the golden models' laws, area and clock by synthesis of their parts, power
 /// by hardware::power_mw().
 ///
 /// error   Refusal (kWrongUse) for a device that there is not, or a model that is no arithmetic
-std::unique_ptr<Target> device(const Space& space, const std::string& name, const Recording& counted);
+std::unique_ptr<Target> device(const Space& space, const Recording& counted);
 
 /// Candidate filters with analog parts: methods, kinds of filter, currents, bits of converters, copies of the circuits.
 ///
 /// error   Refusal (kOutsideTool) without ngspice, (kWrongUse) for a model that is no arithmetic
-std::unique_ptr<Target> mixed_mode(const Space& space);
+std::unique_ptr<Target> mixed_mode(const Space& space, const Recording& unread);
 
 }  // namespace mote::explore

@@ -73,10 +73,6 @@ T number_from(std::ifstream& file) {
   return number;
 }
 
-std::string shown(const std::pair<std::string, std::string>& fact) {
-  return fact.first + " " + (fact.second.empty() ? "not given" : fact.second);
-}
-
 }  // namespace
 
 CheckpointFile::CheckpointFile(std::string path, RunFacts facts, std::optional<std::size_t> every)
@@ -124,13 +120,10 @@ void CheckpointFile::check_file() {
 }
 
 void CheckpointFile::check_facts(const RunFacts& kept) const {
-  const auto refuse = [&](const std::string& expected, const std::string& got) {
-    throw Refusal(ExitCode::kWrongUse, {path_, "", "a checkpoint of this run, with " + expected, "one with " + got,
-                                        "Give the options that it was made with, or name another --checkpoint."});
-  };
-  for (std::size_t k = 0; k < std::min(facts_.size(), kept.size()); ++k)
-    if (facts_[k] != kept[k]) refuse(shown(facts_[k]), shown(kept[k]));
-  if (facts_.size() != kept.size()) refuse("other options", "those of another mote");
+  if (const auto differs = difference(facts_, kept))
+    throw Refusal(ExitCode::kWrongUse,
+                  {path_, "", "a checkpoint of this run, with " + differs->first, "one with " + differs->second,
+                   "Give the options that it was made with, or name another --checkpoint."});
 }
 
 bool CheckpointFile::resume(const KeepRun& run) {

@@ -5,15 +5,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
+#include "mote/app/files/facts.hpp"
 #include "mote/engine/checkpoint.hpp"
 
 namespace mote {
-
-/// What decides a run's numbers, by name, as text: two runs with the same facts are the same run.
-using RunFacts = std::vector<std::pair<std::string, std::string>>;
 
 /// A file that a run is kept in. It holds: "mote checkpoint\n", the version of what follows, the file's length, the
 /// facts, the run's state, the CRC-32 of all before. Numbers lie as in memory of an x86-64.
