@@ -8,11 +8,6 @@
 namespace mote::analog {
 namespace {
 
-/// Additions of a particle's move, MIXED (1).
-constexpr int kAdditions = 6;
-/// Normal numbers of a particle's move, and the uniform one that decides a chain's step.
-constexpr int kNormals = 2;
-
 std::array<Power, kImplementations> of(Power method1, Power method2, Power digital, Power method3) {
   return {method1, method2, digital, method3};
 }
@@ -21,6 +16,11 @@ Power nonlinear(const Load& load, Implementation i) {
   if (i == Implementation::kDigital) return {2 * cordic_power(load.process, load.bits, load.clock_hz), 0};
   const double comparator = i == Implementation::kMethod3 ? kComparatorPower : 0;
   return {load.arctan_w + load.gaussian_w + comparator, 0};
+}
+
+/// How many circuits a rate asks for; rounding asks for none more.
+double copies_for(const Load& load, Implementation implementation, double rate_hz) {
+  return std::ceil(rate_hz / rate_of_copy(load, implementation) * (1 - 1e-9));
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ std::string name_of(Implementation implementation) {
 
 std::vector<Operation> table5(const Load& load) {
   using I = Implementation;
-  const Power adders{kAdditions * adder_power(load.rate_hz), 0};
+  const Power adders{load.additions * adder_power(load.rate_hz), 0};
   const Power digital_mac{0, kAnalogMacSaving};
   const Power mac{0, 1};
   return {{"nonlinear functions",
@@ -46,10 +46,10 @@ std::vector<Operation> table5(const Load& load) {
 }
 
 std::vector<Operation> left_out(const Load& load) {
-  const Power words{random_words_power(kNormals, load.rate_hz), 0};
-  const Power chain_words{random_words_power(kNormals + 1, load.rate_hz), 0};
+  const Power words{random_words_power(load.normals, load.rate_hz), 0};
+  const Power chain_words{random_words_power(load.normals + 1, load.rate_hz), 0};  // a uniform one decides a step
   return {{"ADC that reads weights for the resampler", of({}, {load.adc.power_w, 0}, {}, {}), 0},
-          {"random numbers", of(words, {kNormals * kNoiseSourcePower, 0}, words, chain_words), 0}};
+          {"random numbers", of(words, {load.normals * kNoiseSourcePower, 0}, words, chain_words), 0}};
 }
 
 Power overall(const std::vector<Operation>& rows, Implementation implementation, bool rounded) {
@@ -77,6 +77,11 @@ double most_mac_for_saving(const Power& a, const Power& b, double times) {
   return ahead / loss;
 }
 
+double rate_of_copy(const Load& load, Implementation implementation) {
+  return implementation == Implementation::kMethod1 ? std::min({load.rate_hz, load.dac.rate_hz, load.adc.rate_hz})
+                                                    : load.rate_hz;
+}
+
 double power_at_rate(const Load& load, Implementation implementation, double rate_hz, double mac_w) {
   Load follows = load;
   follows.rate_hz = rate_hz;
@@ -84,14 +89,20 @@ double power_at_rate(const Load& load, Implementation implementation, double rat
   const auto rows = table5(follows);
   const auto place = static_cast<std::size_t>(implementation);
   const bool analog = implementation != Implementation::kDigital;
-  const double one = implementation == Implementation::kMethod1
-                         ? std::min({load.rate_hz, load.dac.rate_hz, load.adc.rate_hz})
-                         : load.rate_hz;
-  const double copies = std::ceil(rate_hz / one);
+  const double copies = copies_for(load, implementation, rate_hz);
   const double digital_mac = kAnalogMacSaving * mac_w * rate_hz / load.rate_hz;
   const bool analog_mac = implementation == Implementation::kMethod2 || implementation == Implementation::kMethod3;
   return (analog ? copies : 1) * (rows[0].power[place].watt + rows[1].power[place].watt) + rows[2].power[place].watt +
          (analog_mac ? copies * mac_w : digital_mac);
+}
+
+double whole_power_at_rate(const Load& load, Implementation implementation, double rate_hz, double mac_w) {
+  Load follows = load;
+  follows.rate_hz = rate_hz;
+  const double rest = overall(left_out(follows), implementation, false).watt;
+  const bool in_copies = implementation == Implementation::kMethod2;
+  return power_at_rate(load, implementation, rate_hz, mac_w) +
+         (in_copies ? copies_for(load, implementation, rate_hz) : 1) * rest;
 }
 
 double crossover(const Load& load, Implementation a, Implementation b, double mac_w, double least_hz, double most_hz) {

@@ -31,6 +31,8 @@ struct Load {
   int bits = 12;                  ///< of the CORDIC
   double clock_hz = 1e6;          ///< of the CORDIC
   double rate_hz = kCircuitRate;  ///< particles a second of one circuit, that adders follow
+  int additions = 6;              ///< of a particle's move, MIXED (1)
+  int normals = 2;                ///< normal numbers of a particle's move
 };
 
 /// A row of Table V: nonlinear functions, converters, additions, multiply-accumulate.
@@ -62,12 +64,18 @@ std::array<double, 2> saving_range(const Power& a, const Power& b);
 /// The largest P at which `b` takes `times` less than `a`: infinity if it always does, negative if never.
 double most_mac_for_saving(const Power& a, const Power& b, double times);
 
+/// Particles a second of one circuit with its converters.
+double rate_of_copy(const Load& load, Implementation implementation);
+
 /// Power of an implementation that is to handle `rate_hz` particles a second. Digital parts follow the rate; circuits
 /// and converters take their power all the time, and as many copies work side by side as the rate asks for, each of
 /// load.rate_hz, to which P belongs.
 ///
 /// unit    watt
 double power_at_rate(const Load& load, Implementation implementation, double rate_hz, double mac_w);
+
+/// The same with what Table V leaves out: the ADC of Method-2 and the random numbers.
+double whole_power_at_rate(const Load& load, Implementation implementation, double rate_hz, double mac_w);
 
 /// The least rate from which on `a` takes no more than `b` up to `most_hz`; NaN if it does nowhere.
 ///

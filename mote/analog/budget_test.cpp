@@ -94,6 +94,19 @@ TEST(Budget, TakesTheMultiplyAccumulateAtTheCircuitsRate) {
   }
 }
 
+// claim    what Table V leaves out comes on top: Method-2's ADC and noise sources with each copy, random words with the
+//          rate
+TEST(Budget, AddsWhatTableFiveLeavesOut) {
+  const Load load;
+  const auto more = [&](I i, double rate) {
+    return whole_power_at_rate(load, i, rate, 1e-6) - power_at_rate(load, i, rate, 1e-6);
+  };
+  const double one = rate_of_copy(load, I::kMethod2);
+  EXPECT_NEAR(more(I::kMethod2, one), 0.18e-3 + 2e-6, 1e-12);
+  EXPECT_NEAR(more(I::kMethod2, 8 * one), 8 * (0.18e-3 + 2e-6), 1e-12);
+  EXPECT_NEAR(more(I::kMethod1, 8 * one), 8 * random_words_power(2, one), 1e-12);
+}
+
 TEST(Budget, CrossesWhereTheCurvesDo) {
   Load load;
   load.gaussian_w = printed_gaussian_power(0.1e-9);

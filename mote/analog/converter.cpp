@@ -8,6 +8,14 @@ namespace mote::analog {
 ConverterSheet tlc5615() { return {"TLC5615", 10, 1, 0.5, 0, 75e3, 0.75e-3}; }
 ConverterSheet ads7830() { return {"ADS7830", 8, 0.5, 0.5, 0, 70e3, 0.18e-3}; }
 
+ConverterSheet with_bits(ConverterSheet sheet, int bits) {
+  if (bits == sheet.bits) return sheet;
+  sheet.name += " with " + std::to_string(bits) + " bits";
+  sheet.power_w = bits == 0 ? 0 : std::ldexp(sheet.power_w, bits - sheet.bits);
+  sheet.bits = bits;
+  return sheet;
+}
+
 Converter::Converter(const ConverterSheet& sheet, Direction direction, double low, double high, std::uint64_t seed,
                      std::uint32_t number)
     : direction_(direction), low_(low), noise_lsb_(sheet.noise_lsb) {

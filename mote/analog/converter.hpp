@@ -32,6 +32,13 @@ ConverterSheet tlc5615();
 /// source  MIXED sec. V and its [15], Texas Instruments SBAS302A: INL and DNL 0.5 LSB at most; noise below them
 ConverterSheet ads7830();
 
+/// The converter with other bits, its errors the same in LSB. A bit more is twice the power: that of a conversion goes
+/// with the number of its steps.
+///
+/// shape   bits: 0 to kMostBits; 0: none is there
+/// source  Walden 1999, the figure of merit P / (2^bits rate)
+ConverterSheet with_bits(ConverterSheet sheet, int bits);
+
 /// The most bits that a converter may have.
 inline constexpr int kMostBits = 16;
 

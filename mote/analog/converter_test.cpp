@@ -71,5 +71,13 @@ TEST(Converter, WithoutBitsIsNotThere) {
   EXPECT_TRUE(std::isnan(Converter(ideal(8), Direction::kToDigital, 0, 1, 1, 0)(kNaN, 0)));
 }
 
+// claim    a bit more is twice the power and the same errors in LSB; none is no converter
+TEST(Converter, TakesMoreForMoreBits) {
+  EXPECT_EQ(with_bits(ads7830(), 10).power_w, 4 * ads7830().power_w);
+  EXPECT_EQ(with_bits(ads7830(), 10).inl_lsb, ads7830().inl_lsb);
+  EXPECT_EQ(with_bits(ads7830(), 8).name, "ADS7830");
+  EXPECT_EQ(with_bits(tlc5615(), 0).power_w, 0);
+}
+
 }  // namespace
 }  // namespace mote::analog

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "mote/base/numbers.hpp"
 #include "tests/app/program.hpp"
 
 namespace mote {
@@ -242,15 +243,51 @@ TEST_F(Explore, FindsRanksOfACluster) {
   EXPECT_TRUE(found["pick"]["command"].get<std::string>().starts_with("mpirun -n ")) << ended.out;
 }
 
+// claim    mixed-mode filters are judged with what their circuits take; the pick's command runs on a recording
+// referee  twice the particles take twice the time, two bits more take four times the converters, eight copies an
+//          eighth of the time
+TEST_F(Explore, FindsMixedModeFilters) {
+  const std::string words =
+      "mote design explore bearings --target mixed -n 64,128 --currents 10 --bits 6,8 --workers 1,8 --steps 10 "
+      "--recordings 2 --first-runs 2 --runs 4 --deadline 20ms --max-power 2mW ";
+  const Ended ended = scratch_.shell(words + "--json e.json");
+  if (ended.code == 5) GTEST_SKIP() << ended.err;
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const Json found = Json::parse(scratch_.read("e.json"));
+  EXPECT_TRUE(found["pick"]["feasible"].get<bool>());
+  const auto command = found["pick"]["command"].get<std::string>();
+  EXPECT_TRUE(command.starts_with("mote analog run bearings ")) << command;
+  const auto figure = [&](const std::string& candidate, const char* name) {
+    for (const Json& one : found["all"])
+      if (one["words"] == candidate) return one[name].get<double>();
+    ADD_FAILURE() << "no candidate " << candidate;
+    return kNaN;
+  };
+  const std::string circuits = " --analog arctan=mite:Ia=10n,gaussian=mite:Ia=10n";
+  const auto one = [&](int n, const std::string& more) {
+    return "--method 1 --filter sisr -n " + std::to_string(n) + circuits + more;
+  };
+  const std::string coarse = " --dac-bits 8 --adc-bits 6 copies=1";
+  const std::string fine = " --dac-bits 10 --adc-bits 8 copies=1";
+  EXPECT_NEAR(figure(one(128, coarse), "time_s"), 2 * figure(one(64, coarse), "time_s"), 1e-12);
+  EXPECT_NEAR(figure(one(64, fine), "power_mw") - figure(one(64, coarse), "power_mw"), 0.75 * 0.93, 1e-9);
+  EXPECT_NEAR(figure(one(64, " --dac-bits 8 --adc-bits 6 copies=8"), "time_s"), figure(one(64, coarse), "time_s") / 8,
+              1e-12);
+  EXPECT_LT(figure("--method 3 --filter imh -n 64 --analog arctan=mite:Ia=10n copies=1", "power_mw"),
+            figure(one(64, coarse), "power_mw"));
+  const Ended ran = scratch_.shell("mote simulate bearings --steps 10 --seed 3 --out obs.csv && " + command);
+  EXPECT_EQ(ran.code, 0) << command << ": " << ran.err;
+  EXPECT_EQ(scratch_.shell(words + "--max-lut 100").code, 2);
+}
+
 TEST_F(Explore, RefusesNonsense) {
   const std::string explore = "mote design explore ungm ";
   scratch_.write("level.toml",
                  "name = \"level\"\n[states]\nx = \"normal(0, 1)\"\n[next]\nx = \"x + normal(0, 1)\"\n"
                  "[observations]\ny = \"normal(x, 1)\"\n");
   for (const auto& [line, sentence] : std::vector<std::pair<std::string, std::string>>{
-           {explore, "--target: expected cpu, cluster or fpga:DEVICE, got nothing"},
-           {explore + "--target gpu", "--target: expected cpu, cluster or fpga:DEVICE, got \"gpu\""},
-           {explore + "--target mixed", "--target: expected cpu, cluster or fpga:DEVICE, got \"mixed\""},
+           {explore, "--target: expected cpu, cluster, mixed or fpga:DEVICE, got nothing"},
+           {explore + "--target gpu", "--target: expected cpu, cluster, mixed or fpga:DEVICE, got \"gpu\""},
            {explore + "--target fpga", "Pass --target fpga:xc7a100t."},
            {explore + "--target cpu --platform red", "--platform: expected --target cluster, got --target cpu"},
            {explore + "--target cpu --more-bits 0", "--more-bits: expected --target fpga:xc7a100t, got --target cpu"},
@@ -260,6 +297,7 @@ TEST_F(Explore, RefusesNonsense) {
            {explore + "--target fpga:xc7a35t --kinds imh,sisr --workers 4",
             "--workers: expected a kind of circuit with lanes, got --kinds imh,sisr"},
            {"mote design explore level.toml --target fpga:xc7a35t --kinds auxiliary", "got no candidate"},
+           {explore + "--target cpu --currents 10", "--currents: expected --target mixed, got --target cpu"},
            {explore + "--target fpga:xc9", "--target: expected fpga: with one of xc7a15t"},
            {explore + "--target cpu --deadline 1",
             "--deadline: expected a number above 0 with its unit (ms, us, ns, s)"},

@@ -71,10 +71,7 @@ AnalogWords words_from(const Arguments& arguments, const CatalogueModel& model, 
 
 void set_bits(analog::ConverterSheet& sheet, const Arguments& arguments, const std::string& option) {
   if (!arguments.given(option)) return;
-  const auto bits = static_cast<int>(arguments.integer(option, 0, analog::kMostBits));
-  if (bits == sheet.bits) return;
-  sheet.name = fmt::format("{} with {} bits", sheet.name, bits);
-  sheet.bits = bits;
+  sheet = analog::with_bits(sheet, static_cast<int>(arguments.integer(option, 0, analog::kMostBits)));
 }
 
 }  // namespace

@@ -46,10 +46,16 @@ Space space_from(const Arguments& arguments, const Material& material) {
   if (arguments.given("--more-bits"))
     for (const long long b : integer_list_from(arguments, "--more-bits", -8, 8, "-2,0,2"))
       space.more_bits.push_back(static_cast<int>(b));
+  if (arguments.given("--currents"))
+    for (const long long na : integer_list_from(arguments, "--currents", 1, 100, "1,10,50"))
+      space.currents.push_back(static_cast<int>(na));
+  if (arguments.given("--bits"))
+    for (const long long b : integer_list_from(arguments, "--bits", 1, 14, "6,8,10"))
+      space.bits.push_back(static_cast<int>(b));
   return space;
 }
 
-/// "cpu, cluster or fpga:DEVICE"
+/// "cpu, cluster, mixed or fpga:DEVICE"
 std::string listed_targets() {
   std::vector<std::string> names;
   for (const TargetKind& kind : target_kinds())
@@ -147,28 +153,33 @@ std::vector<OptionSpec> explore_options() {
   const std::string space = "Candidates";
   const std::string judged = "Judgement";
   return {
-      {"--target", "WHERE", "", "cpu, cluster or fpga:DEVICE (xc7a35t, xc7a100t, xc7z020, ...); must be given", space},
+      {"--target", "WHERE", "", "cpu, cluster, mixed or fpga:DEVICE (xc7a35t, xc7a100t, xc7z020, ...); must be given",
+       space},
       {"--kinds", "LIST", "",
-       "cpu: sisr, imh, auxiliary, sqmc, distributed; cluster: sisr, imh, distributed, stages; fpga: kinds of mote rtl "
-       "[all]",
+       "cpu: sisr, imh, auxiliary, sqmc, distributed; cluster: sisr, imh, distributed, stages; fpga: kinds of mote "
+       "rtl; mixed: "
+       "sisr, imh [all]",
        space},
       {"-n,--particles", "LIST", "",
-       "numbers of particles [cpu: 64 to 65536, cluster: 4096 to 65536, fpga: 128 to 4096]", space},
+       "numbers of particles [cpu: 64 to 65536, cluster: 4096 to 65536, fpga: 128 to 4096, mixed: 64 to 4096]", space},
       {"--workers", "LIST", "",
        "cpu: threads [1, all cores for many particles]; cluster: ranks [1 to 16]; fpga: lanes "
-       "of kinds with several [4]",
+       "of kinds with several [4]; mixed: copies of the circuits [1,8]",
        space},
       {"--more-bits", "LIST", "", "fpga: bits after the point, of every word, more than chosen [-2,0]", space},
+      {"--currents", "LIST", "", "mixed: I_a of both circuits in nA, from 1 to 100 [1,10,50 and MIXED's Table III]",
+       space},
+      {"--bits", "LIST", "", "mixed: bits of the ADC, from 1 to 14; the DAC has two more [6,8,10]", space},
       {"--platform", "NAME", "modern", "cluster: as of mote simulate-cluster", space},
       {"--set", "NAME=VALUE", "", "set a parameter of the model; may be repeated [its defaults]", space, true},
       {"--deadline", "TIME", "", "of a step, as 1ms or 20us", budgets},
       {"--max-rmse", "X", "", "error to the posterior mean, in the state's unit", budgets},
-      {"--max-workers", "K", "", "threads, ranks or lanes", budgets},
+      {"--max-workers", "K", "", "threads, ranks, lanes or copies", budgets},
       {"--max-lut", "N", "", "fpga: look-up tables", budgets},
       {"--max-ff", "N", "", "fpga: flip-flops", budgets},
       {"--max-dsp", "N", "", "fpga: DSP blocks", budgets},
       {"--max-bram", "N", "", "fpga: memory blocks of 18 kbit", budgets},
-      {"--max-power", "POWER", "", "fpga, as 100mW", budgets},
+      {"--max-power", "POWER", "", "fpga and mixed, as 100mW", budgets},
       {"--minimise", "WHAT", "", "rmse, time, threads, ranks, area or power [the first without a budget]", budgets},
       {"--data", "FILE", "", "one recording as CSV, instead of simulated ones", judged},
       {"--truth", "FILE", "", "its true states as CSV, whose error is said, too [none]", judged},

@@ -14,6 +14,7 @@ namespace mote::explore {
 const std::vector<TargetKind>& target_kinds() {
   static const std::vector<TargetKind> all{{"cpu", "", "cpu", {}, processor},
                                            {"cluster", "", "cluster", {"--platform"}, cluster},
+                                           {"mixed", "", "mixed", {"--currents", "--bits"}, mixed_mode},
                                            {"fpga", "DEVICE", "fpga:xc7a100t", {"--more-bits"}, device}};
   return all;
 }

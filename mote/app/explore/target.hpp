@@ -72,6 +72,7 @@ struct Space {
   std::vector<std::size_t> particles;  ///< empty: the target's
   std::vector<std::size_t> workers;    ///< threads, ranks, or lanes; empty: the target's
   std::vector<int> more_bits;          ///< of words
+  std::vector<int> currents, bits;     ///< I_a in nA, and of ADCs; empty: the target's
 };
 
 /// A kind of target, as --target names it.
@@ -115,5 +116,10 @@ std::unique_ptr<Target> cluster(const Space& space, const Recording& unread);
 ///
 /// error   Refusal (kWrongUse) for a device that there is not, or a model that is no arithmetic
 std::unique_ptr<Target> device(const Space& space, const Recording& counted);
+
+/// Candidate filters with analog parts: methods, kinds of filter, currents, bits of converters, copies of the circuits.
+///
+/// error   Refusal (kOutsideTool) without ngspice, (kWrongUse) for a model that is no arithmetic
+std::unique_ptr<Target> mixed_mode(const Space& space, const Recording& unread);
 
 }  // namespace mote::explore
