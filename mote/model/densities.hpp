@@ -43,8 +43,7 @@ S normal_log_density(const S& residual, double variance) {
 template <class S>
 S student_log_density(const S& residual, double scale, double dof) {
   using namespace numbers;
-  const double constant =
-      log_gamma((dof + 1) / 2) - log_gamma(dof / 2) - 0.5 * std::log(dof * kPi) - std::log(scale);
+  const double constant = log_gamma((dof + 1) / 2) - log_gamma(dof / 2) - 0.5 * std::log(dof * kPi) - std::log(scale);
   return S(constant) - S((dof + 1) / 2) * log(S(1) + residual * residual * S(1 / (dof * scale * scale)));
 }
 
