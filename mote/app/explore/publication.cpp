@@ -161,16 +161,15 @@ report::Chart chart_of(const Exploration& found, std::size_t figure) {
 
 std::vector<std::string> notes_of(const Exploration& found) {
   const compare::Design& d = found.jury->design();
-  return {
-      fmt::format("Figures: {}.", found.target->meaning()),
-      fmt::format("RMSE: of the estimated {} to the means of the {}, root of the mean over steps and runs; its "
-                  "interval is of 95 % by the spread of the runs.",
-                  d.target.name, d.reference.name),
-      "Every candidate is judged on the same recordings by the same seeds; by successive halving the better half "
-      "has twice as many runs.",
-      "The frontier: candidates that nobody beats, all judged by as many runs. Whoever errs no more, takes no more on "
-      "any axis, and is better in one of them, beats another; of two that had unequal runs, by those that both had.",
-      "Whoever collapsed, with all weights zero, is left out."};
+  return {fmt::format("Figures: {}.", found.target->meaning()),
+          fmt::format("RMSE: of the estimated {} to the means of the {}, root of the mean over steps and runs; its "
+                      "interval is of 95 % by the spread of the runs.",
+                      d.target.name, d.reference.name),
+          "Every candidate is judged on the same recordings by the same seeds; by successive halving the better half "
+          "has twice as many runs.",
+          "The frontier: candidates that nobody beats, all judged by as many runs.",
+          "Whoever errs no more and takes no more, and somewhere less, beats another: by the runs that both had.",
+          "Whoever collapsed, with all weights zero, is left out."};
 }
 
 }  // namespace
