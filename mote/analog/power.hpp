@@ -34,7 +34,6 @@ double cordic_power(const Process& process, int bits, double clock_hz);
 ///
 /// source  MIXED, Table IV and its [13], Musicer & Rabaey 2000
 double mcml_power();
-inline constexpr double kMcmlClock = 125e6;
 
 /// A ripple-carry adder of 16 bits: 0.21 mW at 2 MHz, by its clock.
 ///

@@ -39,6 +39,21 @@ TEST(Statistics, MeansMediansAndRatios) {
   EXPECT_FALSE(standard_error(c, singles({6, 1, 2})).has_value());
 }
 
+// claim    the error of a bearing is that of the direction, wrapped, not of the distance; steps without truth do not
+// count
+TEST(Statistics, BearingErrors) {
+  RunRecord run;
+  Truth truth;
+  const auto add = [&](Step t, double angle) {
+    run.rows.push_back({t, {{3 * std::cos(angle), 0}, {3 * std::sin(angle), 0}}, {}, {}});
+  };
+  truth.states = {{1, {2 * std::cos(0.5), 2 * std::sin(0.5)}}, {2, {-2, 0}}};
+  add(1, 0.6);
+  add(2, 0.1 - kPi);
+  add(3, 1);
+  EXPECT_NEAR(bearing_rmse(run, truth, 0, 1), 0.1, 1e-12);
+}
+
 TEST(Statistics, WhatIsRecovered) {
   Comparison c = asking(Kind::kRecovered);
   Samples samples = singles({9, 11}, {4, 6});

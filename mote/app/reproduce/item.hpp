@@ -90,7 +90,7 @@ struct Comparison {
   std::string name;
   Kind kind = Kind::kRmse;
   std::vector<std::string> runs;
-  std::string state;                 ///< a state, or "position" for the RMSE of x and y together
+  std::string state;                 ///< a state, "position" for x and y together, "bearing" for their direction
   std::string key;                   ///< of the summary; of a design and of analog circuits a path in their JSON
   double slack = 0;                  ///< of kParticlesEnough: share that the centre error may be above that of the most
   double ess = 0;                    ///< level of the weights

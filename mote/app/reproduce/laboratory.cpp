@@ -153,7 +153,9 @@ void Laboratory::check_comparisons() const {
     return d && truth.known.size() > *d && truth.known[*d];
   };
   for (const Comparison& c : item_.comparisons) {
-    const bool position = c.state == "position" && takes_position(c.kind) && place_of("x") && place_of("y");
+    const bool plane =
+        (c.state == "position" && takes_position(c.kind)) || (c.state == "bearing" && c.kind == Kind::kRmse);
+    const bool position = plane && place_of("x") && place_of("y");
     if (!c.state.empty() && !position && !place_of(c.state))
       throw Refusal(ExitCode::kBadData, {c.where, "\"state\"", "a state of the model", "\"" + c.state + "\"", ""});
     if (needs_truth(c.kind) && !(position ? known("x") && known("y") : known(c.state)))
@@ -290,6 +292,7 @@ std::vector<double> Laboratory::sample(const Comparison& c, std::uint64_t repeat
     case Kind::kMeanSpread:
       return mean_estimates(run, d);
     case Kind::kRmse: {
+      if (c.state == "bearing") return {bearing_rmse(run, truth, *place_of("x"), *place_of("y"))};
       const Summary summary = summarise(run, &truth);
       if (c.state != "position") return {summary.rmse[d]};
       return {summary.position_error ? summary.position_error->rmse : kNaN};

@@ -93,6 +93,20 @@ Samples drawn(const Samples& samples, std::span<const std::size_t> places) {
 
 }  // namespace
 
+double bearing_rmse(const RunRecord& run, const Truth& truth, std::size_t x, std::size_t y) {
+  double squares = 0;
+  double count = 0;
+  for (const EstimateRow& row : run.rows) {
+    const auto known = truth.states.find(row.t);
+    if (known == truth.states.end()) continue;
+    const double there = std::atan2(known->second[y], known->second[x]);
+    const double error = numbers::wrap(std::atan2(row.states[y].mean, row.states[x].mean) - there);
+    squares += error * error;
+    ++count;
+  }
+  return std::sqrt(squares / count);
+}
+
 double statistic(const Comparison& c, const Samples& samples) {
   if (c.kind == Kind::kMeanDifference) return mean_difference(c.unit, samples);
   const double first = of_one_run(c, samples, 0);

@@ -6,6 +6,8 @@
 
 #include "mote/app/compare/statistics.hpp"
 #include "mote/app/reproduce/item.hpp"
+#include "mote/engine/recording.hpp"
+#include "mote/engine/run_record.hpp"
 
 namespace mote::reproduce {
 
@@ -21,6 +23,11 @@ struct Samples {
 
   std::size_t repeats() const { return values.front().size(); }
 };
+
+/// RMSE over time of the bearing, from the origin, of the mean position: the part of a track that bearings tell.
+///
+/// shape   x, y: places of the two states; NaN without a truth
+double bearing_rmse(const RunRecord& run, const Truth& truth, std::size_t x, std::size_t y);
 
 /// The number that a comparison asks for.
 ///
