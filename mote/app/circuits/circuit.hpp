@@ -22,6 +22,7 @@ struct CircuitDesign {
   std::string where = "mote rtl";  ///< who asks for it, for refusals
   std::string proposal = "prior";  ///< of an architecture whose weights are those of pairs
   hardware::RegisterAccess access = hardware::RegisterAccess::kPorts;
+  hardware::Multiplier multiplier = hardware::Multiplier::kDsp;  ///< of the model's pipelines and the filter
   int more_bits = 0;  ///< after the point, of all words, than the sensitivities ask for
 };
 

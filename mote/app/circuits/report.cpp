@@ -75,7 +75,7 @@ std::vector<report::Fact> circuit_facts(const FilterCircuit& circuit, const Circ
   std::vector<report::Fact> facts{
       {"circuit", fmt::format("{}: {}", machine.name(), machine.architecture().meaning)},
       {"pipeline", fmt::format("{} stages: proposal {}, log weight {}, filter {}", machine.stages(), f.propose_latency,
-                               f.weigh_latency, machine.architecture().stages)},
+                               f.weigh_latency, machine.stages() - f.propose_latency - f.weigh_latency)},
       {"words", fmt::format("states of {} bits, {} random words a particle", f.value_bits, f.draw_words)}};
   if (const auto& s = found.simulation) {
     facts.push_back(

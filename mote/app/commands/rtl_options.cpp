@@ -127,6 +127,7 @@ CircuitDesign circuit_design_from(const Arguments& arguments) {
   design.where = arguments.where();
   design.proposal = arguments.text("--proposal");
   design.more_bits = static_cast<int>(arguments.integer("--more-bits", -8, 8));
+  if (family_from(arguments) == hardware::Family::kIce40) design.multiplier = hardware::Multiplier::kLogic;
   design.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 0, 9223372036854775807LL));
   design.lanes = lanes_from(arguments, design);
   design.variant = variant_from(arguments);

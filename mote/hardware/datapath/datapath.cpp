@@ -289,6 +289,7 @@ Datapath datapath(const graph::Recorded& recorded, const Samples& samples, const
   formats.draw_words = static_cast<unsigned>(draw_words(recorded));
   formats.propose_latency = static_cast<unsigned>(made.propose.circuit().latency);
   formats.weigh_latency = static_cast<unsigned>(made.weigh.circuit().latency);
+  formats.product_latency = options.multiplier == Multiplier::kLogic ? kLogicProduct : 1;
   made.arithmetic = golden(made.propose, made.weigh, formats);
   std::vector<Format> words;
   for (const ObservedField& field : made.observed) words.push_back(field.format);

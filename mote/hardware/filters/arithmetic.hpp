@@ -15,6 +15,9 @@ using WordColumns = std::vector<std::vector<std::uint32_t>>;
 /// A step's observations and inputs, as the circuit's integers.
 using Observed = std::span<const std::int64_t>;
 
+/// Cycles of a filter's own product by a tree of adders, with a factor of at most 32 bits: mote_times.
+constexpr unsigned kLogicProduct = 5;
+
 /// Widths that the circuits and their golden models share.
 struct Formats {
   unsigned dims = 1;
@@ -24,8 +27,9 @@ struct Formats {
   unsigned weight_bits = 24;  ///< of a weight at the running scale
   unsigned extra_bits = 8;    ///< fraction bits of a mean beyond those of the state
   unsigned propose_latency = 4, weigh_latency = 4;
-  unsigned carried = 0;      ///< words beside the state's that a proposal brings to be weighed, of value_bits each
-  unsigned count_bits = 10;  ///< At of a circuit that resamples: N <= 2^count_bits, from 6
+  unsigned product_latency = 1;  ///< of the filter's own products: by multipliers, or longer by adders (mote_times)
+  unsigned carried = 0;          ///< words beside the state's that a proposal brings to be weighed, of value_bits each
+  unsigned count_bits = 10;      ///< At of a circuit that resamples: N <= 2^count_bits, from 6
 };
 
 /// A model as the circuit computes it.

@@ -43,6 +43,11 @@ std::vector<std::int64_t> weighted_means(std::span<const std::vector<std::int64_
 /// Stages by which a row of several lanes is added up, a power of two of them.
 constexpr std::uint64_t row_cycles(std::size_t lanes) { return static_cast<std::uint64_t>(std::countr_zero(lanes)); }
 
+/// Cycles from the last row of a step to the sums of its values.
+constexpr std::uint64_t sum_cycles(const Formats& f, std::size_t lanes) {
+  return 3 + f.product_latency + row_cycles(lanes);
+}
+
 /// Cycles from taking the sums of a step to its estimate on the stream.
 constexpr std::uint64_t division_cycles(const Formats& f) {
   return 1 + f.dims * std::uint64_t{f.value_bits + f.extra_bits + 1};

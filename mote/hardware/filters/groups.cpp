@@ -107,7 +107,7 @@ void Groups::keep_time() {
   const std::uint64_t model = 2 + f.propose_latency + f.weigh_latency;
   for (std::size_t k = 0; k < issued_.size(); ++k) written_[k] = issued_[k] + model + weight_cycles(1);
   pace_.free_from(issued_.back() + model);
-  pace_.sums_stand(written_.back() + 4 + row_cycles(groups_.size()) + kCommonScale, division_cycles(f));
+  pace_.sums_stand(written_.back() + sum_cycles(f, groups_.size()) + kCommonScale, division_cycles(f));
 }
 
 }  // namespace mote::hardware

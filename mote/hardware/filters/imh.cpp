@@ -113,7 +113,7 @@ void Imh::keep_time() {
   const std::uint64_t log_weight = pace_.begun() + latency.decided(registers_, lanes_) - lanes_.chain_latency();
   const std::uint64_t done =
       log_weight + std::max<std::uint64_t>(weight_cycles(lanes_.count), lanes_.chain_latency() + 1);
-  pace_.sums_stand(done + 4 + row_cycles(lanes_.count), division_cycles(arithmetic_.formats));
+  pace_.sums_stand(done + sum_cycles(arithmetic_.formats, lanes_.count), division_cycles(arithmetic_.formats));
 }
 
 }  // namespace mote::hardware

@@ -54,7 +54,7 @@ struct ImhLanes {
 struct ImhLatency {
   std::uint64_t propose, weigh;  ///< K_p and K_w
   explicit ImhLatency(const Formats& f, const ImhLanes& lanes = {})
-      : propose(4 + f.propose_latency), weigh(f.weigh_latency + lanes.chain_latency()) {}
+      : propose(3 + f.product_latency + f.propose_latency), weigh(f.weigh_latency + lanes.chain_latency()) {}
   /// From the beginning of a step to its last decision.
   std::uint64_t decided(const ImhRegisters& r, const ImhLanes& lanes = {}) const {
     return lanes.rows(r) - 1 + propose + weigh + 1;

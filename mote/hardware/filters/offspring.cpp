@@ -42,12 +42,13 @@ std::vector<std::uint32_t> parents_of(std::span<const std::uint32_t> ends) {
   return parents;
 }
 
-ChildrenWalk::ChildrenWalk(std::span<const std::uint32_t> ends, unsigned lanes, std::uint64_t last_write)
+ChildrenWalk::ChildrenWalk(std::span<const std::uint32_t> ends, unsigned lanes, std::uint64_t last_write,
+                           unsigned product_latency)
     : ends_(ends),
       lanes_(lanes),
       rows_((ends.size() + 2 * lanes - 1) / (2 * lanes)),
-      latency_(9 + static_cast<std::size_t>(std::countr_zero(lanes))),
-      now_(last_write + 1 + static_cast<std::size_t>(std::countr_zero(lanes))) {}
+      latency_(8 + product_latency + static_cast<std::size_t>(std::countr_zero(lanes))),
+      now_(last_write + 1 + static_cast<std::size_t>(std::countr_zero(lanes)) + factor_wait(product_latency)) {}
 
 /// The children up to a row's last particle.
 std::uint32_t ChildrenWalk::end_of(std::size_t row) const {

@@ -32,13 +32,16 @@ struct Offspring {
 /// The parent of each child: the first particle whose end is above the child's number.
 std::vector<std::uint32_t> parents_of(std::span<const std::uint32_t> ends);
 
+/// Cycles that reading weights waits for N / T, the second of two products, where those take longer than one.
+constexpr std::uint64_t factor_wait(unsigned product_latency) { return 2 * std::uint64_t{product_latency - 1}; }
+
 /// The walk over ends, cycle by cycle: rows of 2 lanes particles in, groups of `lanes` children out.
 class ChildrenWalk {
  public:
   static constexpr std::size_t kRows = 32;  ///< what the queue holds
 
   /// last_write: the cycle in which the last weight is written.
-  ChildrenWalk(std::span<const std::uint32_t> ends, unsigned lanes, std::uint64_t last_write);
+  ChildrenWalk(std::span<const std::uint32_t> ends, unsigned lanes, std::uint64_t last_write, unsigned product_latency);
 
   /// Whether a group is there in this cycle.
   bool shows() const { return shows_; }

@@ -10,12 +10,13 @@ namespace {
 /// The walk over ends, and the parents that it finds.
 class SystematicWalk final : public ParentWalk {
  public:
-  SystematicWalk(const Weighed& weighed, const Offspring& offspring, unsigned lanes, std::uint32_t uniform)
+  SystematicWalk(const Weighed& weighed, const Offspring& offspring, unsigned lanes, std::uint32_t uniform,
+                 unsigned product_latency)
       : lanes_(lanes),
         ends_(offspring.ends(weighed.weights, weighed.total, uniform)),
         parents_(parents_of(ends_)),
         next_(parents_.begin()),
-        walk_(ends_, lanes, weighed.written.back()) {}
+        walk_(ends_, lanes, weighed.written.back(), product_latency) {}
 
   bool shows() const override { return walk_.shows(); }
   bool cycle(bool ready, std::vector<std::uint32_t>& parents) override {
@@ -37,9 +38,12 @@ class SystematicWalk final : public ParentWalk {
 
 std::unique_ptr<ParentWalk> ResamplerWords::walk(const Weighed& weighed, const Formats& formats, unsigned lanes) {
   const Offspring offspring{formats.weight_bits, formats.count_bits};
-  if (scheme_ == Resampler::kSystematic) return std::make_unique<SystematicWalk>(weighed, offspring, lanes, step_);
-  if (scheme_ == Resampler::kResidualSystematic) return std::make_unique<ResidualWalk>(weighed, offspring, step_);
-  return std::make_unique<RouletteWalk>(weighed, formats.count_bits, words_);
+  const unsigned product = formats.product_latency;
+  if (scheme_ == Resampler::kSystematic)
+    return std::make_unique<SystematicWalk>(weighed, offspring, lanes, step_, product);
+  if (scheme_ == Resampler::kResidualSystematic)
+    return std::make_unique<ResidualWalk>(weighed, offspring, step_, product);
+  return std::make_unique<RouletteWalk>(weighed, formats.count_bits, words_, product);
 }
 
 }  // namespace mote::hardware

@@ -3,13 +3,15 @@
 namespace mote::hardware {
 namespace {
 
-constexpr std::uint64_t kLatency = 9;    ///< from reading a weight to its children
 constexpr std::uint64_t kFirstRead = 2;  ///< cycles from writing the last weight to reading the first
 
 }  // namespace
 
-ResidualWalk::ResidualWalk(const Weighed& weighed, const Offspring& offspring, std::uint32_t uniform)
-    : ends_(offspring.ends(weighed.weights, weighed.total, uniform)), now_(weighed.written.back() + kFirstRead) {}
+ResidualWalk::ResidualWalk(const Weighed& weighed, const Offspring& offspring, std::uint32_t uniform,
+                           unsigned product_latency)
+    : ends_(offspring.ends(weighed.weights, weighed.total, uniform)),
+      now_(weighed.written.back() + kFirstRead + factor_wait(product_latency)),
+      latency_(8 + product_latency) {}
 
 bool ResidualWalk::cycle(bool ready, std::vector<std::uint32_t>& parents) {
   const bool taken = ready && shows();
@@ -32,7 +34,7 @@ bool ResidualWalk::cycle(bool ready, std::vector<std::uint32_t>& parents) {
     ++arrived_;
   }
   if (reads) {
-    flying_.push_back(now_ + kLatency);
+    flying_.push_back(now_ + latency_);
     ++read_;
     --room_;
   }

@@ -19,7 +19,7 @@ class ResidualWalk final : public ParentWalk {
  public:
   static constexpr std::size_t kParents = 128;  ///< what the queue holds
 
-  ResidualWalk(const Weighed& weighed, const Offspring& offspring, std::uint32_t uniform);
+  ResidualWalk(const Weighed& weighed, const Offspring& offspring, std::uint32_t uniform, unsigned product_latency);
 
   bool shows() const override { return !parents_.empty(); }
   bool cycle(bool ready, std::vector<std::uint32_t>& parents) override;
@@ -29,7 +29,7 @@ class ResidualWalk final : public ParentWalk {
   std::uint32_t children(std::size_t i) const { return ends_[i] - (i == 0 ? 0 : ends_[i - 1]); }
 
   std::vector<std::uint32_t> ends_;  ///< how many children the particles up to each have together
-  std::uint64_t now_;
+  std::uint64_t now_, latency_;      ///< latency: from reading a weight to its children
   std::size_t read_ = 0, arrived_ = 0, room_ = kParents;
   std::uint32_t shown_ = 0;           ///< of the first parent's children
   std::deque<std::uint64_t> flying_;  ///< the cycles in which weights that are read arrive

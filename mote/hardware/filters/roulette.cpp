@@ -16,14 +16,15 @@ std::vector<std::uint64_t> sums_below_last(std::span<const ScaledWeight> weights
   return sums;
 }
 
-constexpr std::uint64_t kBesideLevels =
-    7;  ///< cycles from writing the last weight to the first parent, beside the levels'
+/// Cycles from writing the last weight to the first parent, beside the levels' and the product's.
+constexpr std::uint64_t kBesideLevels = 6;
 constexpr std::uint64_t kLevel = 4;
 
 }  // namespace
 
-RouletteWalk::RouletteWalk(const Weighed& weighed, unsigned count_bits, Words& words)
-    : now_(weighed.written.back() + 1), first_(weighed.written.back() + kBesideLevels + kLevel * count_bits) {
+RouletteWalk::RouletteWalk(const Weighed& weighed, unsigned count_bits, Words& words, unsigned product_latency)
+    : now_(weighed.written.back() + 1),
+      first_(weighed.written.back() + kBesideLevels + product_latency + kLevel * count_bits) {
   __extension__ using Wide = unsigned __int128;
   const std::vector<std::uint64_t> sums = sums_below_last(weighed.weights);
   for (std::size_t j = 0; j < weighed.weights.size(); ++j) {

@@ -18,7 +18,7 @@ namespace mote::hardware {
 class RouletteWalk final : public ParentWalk {
  public:
   /// Draws a word for each child.
-  RouletteWalk(const Weighed& weighed, unsigned count_bits, Words& words);
+  RouletteWalk(const Weighed& weighed, unsigned count_bits, Words& words, unsigned product_latency);
 
   bool shows() const override { return taken_ < parents_.size() && now_ >= first_ + taken_; }
   bool cycle(bool ready, std::vector<std::uint32_t>& parents) override;

@@ -90,7 +90,7 @@ void Sisr::keep_time() {
   const std::uint64_t model = 2 + f.propose_latency + f.weigh_latency;
   for (std::size_t k = 0; k < issued_.size(); ++k) written_[k] = issued_[k] + model + weight_cycles(lanes_);
   pace_.free_from(issued_.back() + model);
-  pace_.sums_stand(written_.back() + 4 + row_cycles(lanes_), division_cycles(f));
+  pace_.sums_stand(written_.back() + sum_cycles(f, lanes_), division_cycles(f));
 }
 
 /// A loop's turns take `turn` cycles, or one each and the rest at the end.
@@ -108,7 +108,7 @@ void Sisr::keep_loops_time() {
     pass(f.weigh_latency + 3);
   }
   for (std::uint64_t k = 0; k < n; ++k) written_[k] = begins + k * every(last) + last - 1;
-  pace_.sums_stand(written_.back() + 4, division_cycles(f));
+  pace_.sums_stand(written_.back() + sum_cycles(f, 1), division_cycles(f));
 }
 
 }  // namespace mote::hardware

@@ -127,7 +127,7 @@ Machine::Machine(ModelCircuit model, const Architecture& architecture, const Run
 
 unsigned Machine::stages() const {
   return architecture_->stages + architecture_->stages_a_lane * capacity_.lanes + formats().propose_latency +
-         formats().weigh_latency;
+         formats().weigh_latency + (architecture_->chain ? formats().product_latency - 1 : 0);
 }
 
 int Machine::particle_bits() const { return as_int(capacity_.lanes * formats().dims * formats().value_bits); }
@@ -220,6 +220,7 @@ std::vector<Parameter> Machine::parameters() const {
                              parameter("At", as_int(capacity_.at)),
                              parameter("ProposeLatency", as_int(f.propose_latency)),
                              parameter("WeighLatency", as_int(f.weigh_latency)),
+                             parameter("Product", as_int(f.product_latency)),
                              parameter("Seed", 64, seed_)};
   if (f.carried > 0) all.push_back(parameter("CarryWidth", as_int(f.carried * f.value_bits)));
   for (const Parameter& one : architecture_->parameters(capacity_)) all.push_back(one);

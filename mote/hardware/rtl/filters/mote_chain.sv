@@ -1,11 +1,12 @@
 // A chain of independent Metropolis-Hastings: decides on a proposal a cycle.
 //
-//   accepts_o  =  starts_i  or  lw <= lw' - log2 u      lw of the chain's state, lw' of the proposal, u uniform
+//   accepts_o  =  first_i  or  lw <= lw' - log2 u      lw of the chain's state, lw' of the proposal, u uniform
 //   state_o    =  state_i where it accepts, else the chain's state
 //
 // formats  log weights: signed, octaves, 10 fraction bits
-// timing   word_i, then log_weight_i 5 cycles later, decides_i, starts_i and state_i a cycle after that; accepts_o and
-//          state_o in the same cycle, current_o in the next. Initiation interval 1
+// timing   word_i, then log_weight_i and first_i 5 cycles later, decides_i and state_i a cycle after that; accepts_o and
+//          state_o in the same cycle, current_o in the next. Initiation interval 1. The first proposal's bound is the
+//          greatest there is, so that the comparison alone decides
 // golden   mote/hardware/filters/imh.hpp
 // source   IMH-HW (16) - (17)
 module mote_chain #(
@@ -19,8 +20,8 @@ module mote_chain #(
     input  logic                       rst_ni,
     input  logic                       word_i,
     input  logic signed [LogWidth-1:0] log_weight_i,
+    input  logic                       first_i,
     input  logic                       decides_i,
-    input  logic                       starts_i,
     input  logic [StateWidth-1:0]      state_i,
     output logic                       accepts_o,
     output logic [StateWidth-1:0]      state_o,
@@ -34,14 +35,15 @@ module mote_chain #(
 
   bound_t bound_q;
   logic signed [LogWidth-1:0] log_q, current_log_q;
-  assign accepts_o = starts_i || (LogWidth + 1)'(current_log_q) <= bound_q;
+  assign accepts_o = (LogWidth + 1)'(current_log_q) <= bound_q;
   assign state_o = accepts_o ? state_i : current_o;
   always_ff @(posedge clk_i) begin
-    bound_q <= (LogWidth + 1)'(log_weight_i) + (LogWidth + 1)'({1'b0, drop});
+    bound_q <= first_i ? {1'b0, {LogWidth{1'b1}}} : (LogWidth + 1)'(log_weight_i) + (LogWidth + 1)'({1'b0, drop});
     log_q   <= log_weight_i;
-    if (decides_i && accepts_o) begin
-      current_log_q <= log_q;
-      current_o     <= state_i;
-    end
+    if (decides_i && accepts_o) current_o <= state_i;
+  end
+  always_ff @(posedge clk_i or negedge rst_ni) begin  // a number from the first comparison on
+    if (!rst_ni) current_log_q <= '0;
+    else if (decides_i && accepts_o) current_log_q <= log_q;
   end
 endmodule

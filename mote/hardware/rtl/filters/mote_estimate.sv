@@ -10,7 +10,7 @@
 //          evidence of a step = sum_o 2^(8 scale_o - Width) / proposals
 // range    SumWidth bits hold 2^At weights, and |sum v x| <= 2^(ValueWidth - 1) (sum v + 1): nothing overflows; a step's
 //          sum is above 3
-// timing   sums: one row a cycle; 4 + log2 Lanes cycles from done_i to taking the sums, then 1 + Dims (ValueWidth + Extra + 1)
+// timing   sums: one row a cycle; 3 + Product + log2 Lanes cycles from done_i to taking the sums, then 1 + Dims (ValueWidth + Extra + 1)
 //          to divide: a bit a cycle, without restoring. Sums must not begin anew before they are taken: the filter begins a
 //          step only when the one before the last has left, see pending_o. Overlapped: they may begin anew in the cycle after
 //          done_i, if the estimate before has left by the time they are taken, or does before they begin
@@ -24,6 +24,7 @@ module mote_estimate #(
     parameter int unsigned Extra      = 8,
     parameter int unsigned ScaleWidth = 12,
     parameter int unsigned Overlapped = 0,
+    parameter int unsigned Product    = 1,
     localparam int unsigned SumWidth  = Width + At,
     localparam int unsigned MeanWidth = ValueWidth + Extra + 1
 ) (
@@ -65,7 +66,7 @@ module mote_estimate #(
   typedef logic signed [TotalWidth-1:0] total_t;
 
   localparam int unsigned Tree = $clog2(Lanes);  // stages that add up a row
-  localparam int unsigned Wait = 3 + Tree;
+  localparam int unsigned Wait = 2 + Product + Tree;
 
   // ---- sums
   logic [SumWidth-1:0] sum_q, row;
@@ -105,12 +106,14 @@ module mote_estimate #(
     for (genvar l = 0; l < Lanes; l++) begin : gen_lane
       logic signed [Width:0] weight_q;
       logic signed [ValueWidth-1:0] value_q;
-      logic signed [ProductWidth-1:0] product_q, rounded_q;
+      logic [ProductWidth-1:0] product;
+      logic signed [ProductWidth-1:0] rounded_q;
+      mote_times #(.AWidth(Width + 1), .BWidth(ValueWidth), .BSigned(1'b1), .Product(Product)) u_product (
+          .clk_i, .a_i(weight_q), .b_i(value_q), .p_o(product));
       always_ff @(posedge clk_i) begin
         weight_q  <= $signed({1'b0, value_weight_i[l*Width+:Width]});
         value_q   <= $signed(value_i[(l*Dims+d)*ValueWidth+:ValueWidth]);
-        product_q <= weight_q * value_q;
-        rounded_q <= product_q + $signed(ProductWidth'(1) << (Dropped - 1));
+        rounded_q <= $signed(product) + $signed(ProductWidth'(1) << (Dropped - 1));
       end
       assign terms[l*TermWidth+:TermWidth] = rounded_q[ProductWidth-1:Dropped];
       logic unused_bits;

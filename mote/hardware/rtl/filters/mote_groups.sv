@@ -32,6 +32,7 @@ module mote_groups #(
     parameter int unsigned WeighLatency   = 4,
     parameter logic [63:0] Seed           = 64'd1,
     parameter int unsigned Stream         = 0,
+    parameter int unsigned Product        = 1,
     parameter Exp2Table                   = "exp2.hex",
     localparam int unsigned ScaleWidth = LogWidth - 12,
     localparam int unsigned SumWidth   = WeightWidth + At,
@@ -209,7 +210,8 @@ module mote_groups #(
         total_q <= (rise == 2'd3 ? '0 : total_q >> {rise, 3'b0}) + GroupSumWidth'(weight[l*WeightWidth+:WeightWidth]);
     end
     mote_resample #(
-        .Scheme(Scheme), .At(SlotWidth), .Width(WeightWidth), .ScaleWidth(ScaleWidth), .Seed(Seed), .Stream(Stream + l)
+        .Scheme(Scheme), .At(SlotWidth), .Width(WeightWidth), .ScaleWidth(ScaleWidth), .Seed(Seed), .Stream(Stream + l),
+        .Product(Product)
     ) u_resample (
         .clk_i, .rst_ni,
         .starts_i(starts),
@@ -271,7 +273,8 @@ module mote_groups #(
   logic ends_q;  // the step whose sums end is the run's last
   always_ff @(posedge clk_i) if (kept_last) ends_q <= estimates_left_q == 16'd1;
   mote_estimate #(
-      .Lanes(Lanes), .Dims(Dims), .ValueWidth(ValueWidth), .Width(WeightWidth), .At(At), .Extra(Extra), .ScaleWidth(ScaleWidth)
+      .Lanes(Lanes), .Dims(Dims), .ValueWidth(ValueWidth), .Width(WeightWidth), .At(At), .Extra(Extra), .ScaleWidth(ScaleWidth),
+      .Product(Product)
   ) u_estimate (
       .clk_i, .rst_ni,
       .weight_valid_i(valid2),

@@ -13,7 +13,7 @@
 // the states that have emerged by then, n = N/Lanes slots in all:
 //   slots of row j:  min(n, n - H + j),   H = min(W, floor(n / 2)),   W = K_p + K_w - 2
 // The arithmetic of a model is outside, pipelines without stalls, one a lane: propose (state_i, words -> state,
-// ProposeLatency cycles) and weigh (state -> log weight, WeighLatency cycles). t_o and obs_o stand from 4 cycles before
+// ProposeLatency cycles) and weigh (state -> log weight, WeighLatency cycles). t_o and obs_o stand from 3 + Product cycles before
 // the first state of a step reaches propose until its last leaves weigh. Overlapped, they and weigh_obs_o change with a step's
 // first state at propose and at weigh, whose pipelines delay them with each particle. At t = 1 the parent's state is undefined:
 // propose draws it from the prior.
@@ -25,8 +25,8 @@
 // range    Lanes a power of two, n_i and draws_i multiples of it; Lanes <= n_i <= Most; n_i <= draws_i;
 //          draws_i + Lanes burn_in_i <= 2^At (Folded: draws_i + burn_in_i); Most <= 2^At. Registers are read at start_i
 // timing   a step of r rows takes (r - 1) + K_p + K_w + 1 cycles, exactly (IMH-HW 5.3 with T_p = T_w = T_D = 1; of pairs with
-//          T_D = 1/Lanes): K_p = 4 + ProposeLatency, K_w = WeighLatency + 1 (Folded: WeighLatency + Lanes + 2); the estimate
-//          follows 7 + Dims (ValueWidth + Extra + 1) cycles (1 + log2 Lanes more with several lanes) behind the last decision, of
+//          T_D = 1/Lanes): K_p = 3 + Product + ProposeLatency, K_w = WeighLatency + 1 (Folded: WeighLatency + Lanes + 2); the estimate
+//          follows 6 + Product + Dims (ValueWidth + Extra + 1) cycles (1 + log2 Lanes more with several lanes) behind the last decision, of
 //          a folded chain sooner or later, see imh.cpp. A step waits for an observation, and for the estimate of the
 //          step before the last to be taken. Overlapped: r + W - H cycles; r where n >= 2 W.
 //          ProposeLatency + WeighLatency >= 6
@@ -51,6 +51,7 @@ module mote_imh #(
     parameter int unsigned WeighLatency   = 4,
     parameter logic [63:0] Seed           = 64'd1,
     parameter int unsigned Stream         = 0,
+    parameter int unsigned Product        = 1,
     parameter Exp2Table                   = "exp2.hex",
     parameter Log2Table                   = "log2.hex",
     localparam int unsigned ScaleWidth = LogWidth - 12,
@@ -100,23 +101,24 @@ module mote_imh #(
 );
   localparam int unsigned ModelLatency = ProposeLatency + WeighLatency;
   localparam int unsigned ChainLatency = Folded == 1 ? Lanes + 2 : 1;  // from the log weights of a row to what is decided
-  localparam int unsigned Window = 4 + ModelLatency + ChainLatency - 2;
+  localparam int unsigned ParentLatency = 3 + Product;  // of mote_parents
+  localparam int unsigned Window = ParentLatency + ModelLatency + ChainLatency - 2;
   typedef logic [At:0] count_t;
 
   // ---- what a run is, of a lane
   localparam int unsigned LaneBits = $clog2(Lanes);
   localparam int unsigned Streams = 2 + DrawWords;  // of a lane: parents, acceptance, draws
-  count_t n_q, total_q, drop_q, per_lane_n, rows;
+  count_t n_q, last_row_q, drop_q, per_lane_n, rows;
   assign per_lane_n = n_i >> LaneBits;
   assign rows = (draws_i >> LaneBits) + (Folded == 1 ? (burn_in_i + (At + 1)'(Lanes - 1)) >> LaneBits : burn_in_i);
   logic equal_q;
   logic starts_run;
   always_ff @(posedge clk_i) begin
     if (starts_run) begin
-      n_q     <= per_lane_n;
-      total_q <= rows;
-      drop_q  <= rows - per_lane_n;
-      equal_q <= chain_mean_i;
+      n_q        <= per_lane_n;
+      last_row_q <= rows - (At + 1)'(1);
+      drop_q     <= rows - per_lane_n;
+      equal_q    <= chain_mean_i;
     end
   end
 
@@ -125,7 +127,7 @@ module mote_imh #(
   logic [15:0] step;
   logic [ObsWidth-1:0] observed;
   count_t issue_q, slots;
-  assign issue_last = issues_q && issue_q + (At + 1)'(1) == total_q;
+  assign issue_last = issues_q && issue_q == last_row_q;
   mote_steps #(.ObsWidth(ObsWidth)) u_steps (
       .clk_i, .rst_ni, .start_i, .steps_i, .busy_o, .starts_o(starts_run),
       .obs_valid_i, .obs_ready_o, .obs_i,
@@ -143,12 +145,15 @@ module mote_imh #(
   logic bank_q, read_bank;
   if (Overlapped == 1) begin : gen_overlapped
     localparam int unsigned GapWidth = $clog2(Window + 1);
-    count_t head, window_q, slots_q, first_q;
+    localparam int unsigned HeadWidth = GapWidth > At ? GapWidth + 1 : At + 1;  // the window may be longer than any step
+    logic [HeadWidth-1:0] half, head;
+    count_t window_q, slots_q, first_q;
     logic [GapWidth-1:0] gap_q, left_q;
     logic reads_next, proposes_next, weighs_next, read_bank_q;
-    assign head = per_lane_n >> 1 > (At + 1)'(Window) ? (At + 1)'(Window) : per_lane_n >> 1;
+    assign half = HeadWidth'(per_lane_n[At:1]);
+    assign head = half > HeadWidth'(Window) ? HeadWidth'(Window) : half;
     assign free = issue_last && gap_q == '0 || left_q == GapWidth'(1);
-    mote_valid #(.Depth(2)) u_reads (.clk_i, .rst_ni, .valid_i(begins), .valid_o(reads_next));
+    mote_valid #(.Depth(1 + Product)) u_reads (.clk_i, .rst_ni, .valid_i(begins), .valid_o(reads_next));
     mote_valid #(.Depth(2)) u_proposes (.clk_i, .rst_ni, .valid_i(reads_next), .valid_o(proposes_next));
     mote_valid #(.Depth(ProposeLatency)) u_weighs (.clk_i, .rst_ni, .valid_i(proposes_next), .valid_o(weighs_next));
     always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -163,8 +168,8 @@ module mote_imh #(
     end
     always_ff @(posedge clk_i) begin
       if (starts_run) begin
-        first_q <= per_lane_n - head;
-        gap_q   <= GapWidth'((At + 1)'(Window) - head);
+        first_q <= per_lane_n - (At + 1)'(head);
+        gap_q   <= GapWidth'(HeadWidth'(Window) - head);
       end
       if (begins) window_q <= first_q;
       else if (issues_q && window_q != n_q) window_q <= window_q + (At + 1)'(1);
@@ -187,11 +192,11 @@ module mote_imh #(
   end
 
   // ---- parents
-  logic valid4, valid_log;
-  mote_valid #(.Depth(4)) u_valid4 (.clk_i, .rst_ni, .valid_i(issues_q), .valid_o(valid4));
+  logic parent_valid, valid_log;
+  mote_valid #(.Depth(ParentLatency)) u_parent_valid (.clk_i, .rst_ni, .valid_i(issues_q), .valid_o(parent_valid));
   mote_parents #(
       .Lanes(Lanes), .Choice(Parents), .Width(StateWidth), .CountWidth(At + 1), .SlotWidth(SlotWidth), .Seed(Seed),
-      .Stream(Stream), .StreamStep(Streams)
+      .Stream(Stream), .StreamStep(Streams), .Product(Product)
   ) u_parents (
       .clk_i, .rst_ni,
       .advance_i(issues_q),
@@ -209,13 +214,13 @@ module mote_imh #(
   logic weighed_valid, weighed_first, decides, starts, keeps;
   logic [Lanes-1:0] accepts;
   logic [Lanes*StateWidth-1:0] proposed_state, tapped_state, decided_state, current;
-  assign propose_valid_o = valid4;
+  assign propose_valid_o = parent_valid;
   assign weigh_state_o = propose_state_i;
   mote_valid #(.Depth(ProposeLatency)) u_weigh_valid (
-      .clk_i, .rst_ni, .valid_i(valid4), .valid_o(weigh_valid_o));
+      .clk_i, .rst_ni, .valid_i(parent_valid), .valid_o(weigh_valid_o));
   mote_valid #(.Depth(WeighLatency)) u_weighed_valid (
       .clk_i, .rst_ni, .valid_i(weigh_valid_o), .valid_o(weighed_valid));
-  mote_valid #(.Depth(ModelLatency - 1)) u_log_valid (
+  mote_valid #(.Depth(ParentLatency + ModelLatency - 5)) u_log_valid (
       .clk_i, .rst_ni, .valid_i(issues_q), .valid_o(valid_log));
   mote_valid #(.Depth(ChainLatency)) u_decides (
       .clk_i, .rst_ni, .valid_i(weighed_valid), .valid_o(decides));
@@ -227,7 +232,7 @@ module mote_imh #(
     assign proposed_state[l*StateWidth+:StateWidth] = propose_state_i[l*PairWidth+:StateWidth];
     for (genvar w = 0; w < DrawWords; w++) begin : gen_word
       mote_words #(.Seed(Seed), .Stream(Stream + Streams * l + 2 + w)) u_words (
-          .clk_i, .rst_ni, .advance_i(valid4), .word_o(propose_words_o[(l*DrawWords+w)*32+:32]));
+          .clk_i, .rst_ni, .advance_i(parent_valid), .word_o(propose_words_o[(l*DrawWords+w)*32+:32]));
     end
   end
   if (Folded == 1) begin : gen_folded
@@ -253,8 +258,8 @@ module mote_imh #(
           .clk_i, .rst_ni,
           .word_i(valid_log),
           .log_weight_i(weigh_log_i[l*LogWidth+:LogWidth]),
+          .first_i(weighed_first),
           .decides_i(decides),
-          .starts_i(starts),
           .state_i(decided_state[l*StateWidth+:StateWidth]),
           .accepts_o(accepts[l]),
           .state_o(kept_state_o[l*StateWidth+:StateWidth]),
@@ -273,7 +278,7 @@ module mote_imh #(
   logic kept_q, kept_first_q;
   assign starts = decided_q == '0;
   assign keeps = decided_q >= drop_q;
-  assign decided_last = decides && decided_q + (At + 1)'(1) == total_q;
+  assign decided_last = decides && decided_q == last_row_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       kept_q    <= 1'b0;
@@ -344,14 +349,14 @@ module mote_imh #(
       summed_q     <= '0;
       steps_left_q <= '0;
     end else begin
-      if (weighed_valid) weighed_q <= weighed_q + (At + 1)'(1) == total_q ? '0 : weighed_q + (At + 1)'(1);
+      if (weighed_valid) weighed_q <= weighed_q == last_row_q ? '0 : weighed_q + (At + 1)'(1);
       if (weight_valid) summed_q <= summed_last ? '0 : summed_q + (At + 1)'(1);
       if (starts_run) steps_left_q <= steps_i;
       else if (summed_last) steps_left_q <= steps_left_q - 16'd1;
     end
   end
   assign weighed_first = weighed_q == '0;
-  assign summed_last = weight_valid && summed_q + (At + 1)'(1) == total_q;
+  assign summed_last = weight_valid && summed_q == last_row_q;
   mote_valid #(.Depth(Done - Scaled - HoldWeights)) u_done (.clk_i, .rst_ni, .valid_i(summed_last), .valid_o(done));
   mote_delay #(.Width(1), .Depth(Done - Scaled - HoldWeights)) u_last (
       .clk_i, .d_i(steps_left_q == 16'd1), .d_o(last));
@@ -359,7 +364,7 @@ module mote_imh #(
   logic [SumWidth-1:0] unused_sum;
   mote_estimate #(
       .Lanes(Lanes), .Dims(Dims), .ValueWidth(ValueWidth), .Width(WeightWidth), .At(At), .Extra(Extra), .ScaleWidth(ScaleWidth),
-      .Overlapped(Overlapped)
+      .Overlapped(Overlapped), .Product(Product)
   ) u_estimate (
       .clk_i, .rst_ni,
       .weight_valid_i(weight_valid),

@@ -17,10 +17,16 @@ module mote_log_uniform #(
   logic [6:0] table_rom[128];
   initial $readmemh(Table, table_rom);
 
-  function automatic logic [5:0] leading_zeros(input logic [31:0] word);
-    leading_zeros = 6'd32;
-    for (int i = 0; i < 32; i++) if (word[i]) leading_zeros = 6'(31 - i);
+  // Leading zeros: those of each byte, of the first byte that has a one.
+  function automatic logic [2:0] zeros_of(input logic [7:0] byte_in);
+    zeros_of = '0;
+    for (int i = 0; i < 8; i++) if (byte_in[i]) zeros_of = 3'(7 - i);
   endfunction
+  logic [5:0] zeros;
+  always_comb begin
+    zeros = 6'd32;
+    for (int k = 3; k >= 0; k--) if (word_i[31-8*k-:8] != '0) zeros = {3'(k), zeros_of(word_i[31-8*k-:8])};
+  end
 
   logic [5:0]  zeros_q, zeros2_q, zeros3_q, zeros4_q;
   logic [31:0] word_q, coarse_q;
@@ -29,7 +35,7 @@ module mote_log_uniform #(
   logic [31:0] fine;
   assign fine = coarse_q << zeros2_q[2:0];
   always_ff @(posedge clk_i) begin
-    zeros_q    <= leading_zeros(word_i);
+    zeros_q    <= zeros;
     word_q     <= word_i;
     zeros2_q   <= zeros_q;
     coarse_q   <= word_q << {zeros_q[5:3], 3'b0};

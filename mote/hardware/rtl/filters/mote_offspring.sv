@@ -9,7 +9,7 @@
 //
 // formats  short_i, rise_i, scale_i: mote_weight's, of the scale its 3 lowest bits; ends_o: the J of a row's particles; row_o: the row's number
 // range    n_i counts slots of Lanes particles, N = Lanes n_i; Lanes 1, 2, 4 or 8; At >= 6; T >= 2^(Width - 8)
-// timing   the first row is there 11 + 2 log2 Lanes cycles after the last weight is written, initiation interval 1 until the
+// timing   the first row is there 8 + 3 Product + 2 log2 Lanes cycles after the last weight is written, initiation interval 1 until the
 //          queue of Rows is full. total_i comes with total_valid_i 1 + log2 Lanes cycles after the last
 //          weight
 // golden   mote/hardware/filters/offspring.hpp
@@ -19,6 +19,7 @@ module mote_offspring #(
     parameter int unsigned At         = 10,
     parameter int unsigned Width      = 24,
     parameter int unsigned Rows       = 32,
+    parameter int unsigned Product    = 1,
     localparam int unsigned Many      = 2 * Lanes,
     localparam int unsigned RowWidth  = At - $clog2(Many),
     localparam int unsigned SumWidth  = Width + At
@@ -44,8 +45,9 @@ module mote_offspring #(
     output logic [Many*(At+1)-1:0]       ends_o
 );
   localparam int unsigned Levels = $clog2(Many);
-  localparam int unsigned Latency = 8 + Levels;  // from reading a row to its ends
-  localparam int unsigned Later = $clog2(Lanes);  // cycles that reading waits for the total's leading zeros
+  localparam int unsigned Latency = 7 + Product + Levels;  // from reading a row to its ends
+  // Cycles that reading waits for the total's leading zeros, and for the factor where its products take longer.
+  localparam int unsigned Later = $clog2(Lanes) + 2 * (Product - 1);
   localparam int unsigned Drop = At - 6;         // bits of N times the reciprocal that are left out
   localparam int unsigned Frac = 34 - Drop;      // fraction bits of C q
   localparam int unsigned RoomWidth = $clog2(Rows) + 1;
@@ -113,20 +115,19 @@ module mote_offspring #(
   localparam int unsigned ZerosWidth = $clog2(SumWidth);
   logic [ZerosWidth-1:0] zeros;
   logic [17:0] reciprocal;
-  logic [At+18:0] product_n_q;
+  logic [At+18:0] product_n;
   (* keep *) logic [23:0] factor_q;  // in flip-flops of its own: the product before it keeps its register
   logic [23:0] uniform_q;
   logic [At:0] all_n;
   assign all_n = n_i << $clog2(Lanes);
   always_ff @(posedge clk_i) if (total_valid_i) uniform_q <= uniform_i;
-  mote_reciprocal #(.Width(SumWidth), .MostZeros(At + 7)) u_reciprocal (
+  mote_reciprocal #(.Width(SumWidth), .MostZeros(At + 7), .Product(Product)) u_reciprocal (
       .clk_i, .load_i(total_valid_i), .divisor_i(total_i), .zeros_o(zeros), .reciprocal_o(reciprocal));
-  always_ff @(posedge clk_i) begin
-    product_n_q <= (At + 19)'(reciprocal) * (At + 19)'(all_n);
-    factor_q    <= product_n_q[Drop+:24];
-  end
+  mote_times #(.AWidth(18), .BWidth(At + 1), .Product(Product)) u_product_n (
+      .clk_i, .a_i(reciprocal), .b_i(all_n), .p_o(product_n));
+  always_ff @(posedge clk_i) factor_q <= product_n[Drop+:24];
   logic unused_product;
-  assign unused_product = ^product_n_q;
+  assign unused_product = ^product_n;
 
   // ---- weights as parts of the total
   logic [RowWidth:0] faint_before;
@@ -148,14 +149,15 @@ module mote_offspring #(
   mote_valid #(.Depth(5 + Levels)) u_summed (.clk_i, .rst_ni, .valid_i(reads), .valid_o(summed));
   for (genvar i = 0; i < Many; i++) begin : gen_particle
     logic [Width-1:0] cum_q;
-    logic [40:0] product_q;
+    logic [40:0] product;
+    mote_times #(.AWidth(24), .BWidth(17), .Product(Product)) u_product (
+        .clk_i, .a_i(factor_q), .b_i(cum_q[Width-1-:17]), .p_o(product));
     mote_share #(.Width(Width)) u_share (
         .clk_i, .short_i(word[i*18+:18]), .faint_i(faint[i/Lanes]), .by_i(by), .level_i(level), .mask_i(mask),
         .share_o(sums[i*Width+:Width]));
     always_ff @(posedge clk_i) begin
-      cum_q     <= base_q + sums[(Levels*Many+i)*Width+:Width];
-      product_q <= 41'(cum_q[Width-1-:17]) * 41'(factor_q);
-      place_q[i*42+:42] <= 42'(product_q) + 42'({uniform_q, {(Frac - 24) {1'b0}}});
+      cum_q <= base_q + sums[(Levels*Many+i)*Width+:Width];
+      place_q[i*42+:42] <= 42'(product) + 42'({uniform_q, {(Frac - 24) {1'b0}}});
     end
     logic unused_bits;
     assign unused_bits = ^cum_q[Width-18:0];

@@ -6,8 +6,9 @@
 //     2 shared   r of the lane's own word: parents are independent, every lane holds a copy of all memories
 //
 // formats  words as they come: u from the 24 upper bits, r from the bits below. Lanes: a power of two, at most 256
-// timing   state_o 4 cycles after advance_i, initiation interval 1; n_i goes a cycle behind advance_i. Two
-//          sets: bank_i, of the cycle in which a slot is read (2 behind advance_i), and the one that is written
+// timing   state_o 3 + Product cycles after advance_i, initiation interval 1; n_i goes a cycle behind advance_i. Two sets:
+//          bank_i, of the cycle in which a slot is read (1 + Product behind advance_i), and the one that is written.
+//          Product: mote_times's
 // golden   mote/hardware/filters/imh.hpp
 module mote_parents #(
     parameter int unsigned Lanes      = 1,
@@ -18,6 +19,7 @@ module mote_parents #(
     parameter logic [63:0] Seed       = 64'd1,
     parameter int unsigned Stream     = 0,
     parameter int unsigned StreamStep = 1,
+    parameter int unsigned Product    = 1,
     localparam int unsigned LaneWidth = Lanes > 1 ? $clog2(Lanes) : 1
 ) (
     input  logic                        clk_i,
@@ -36,36 +38,37 @@ module mote_parents #(
 
   // ---- slots
   logic [Lanes*32-1:0] word;
-  logic [Lanes*SlotWidth-1:0] slot_q;
+  logic [Lanes*SlotWidth-1:0] slot;
   logic [Lanes*LaneWidth-1:0] from;  // the chain that each lane reads from
   for (genvar l = 0; l < Lanes; l++) begin : gen_slot
     mote_words #(.Seed(Seed), .Stream(Stream + StreamStep * l)) u_words (
         .clk_i, .rst_ni, .advance_i, .word_o(word[l*32+:32]));
     logic [23:0] uniform_q;
-    always_ff @(posedge clk_i) begin
-      uniform_q <= word[l*32+8+:24];
-      slot_q[l*SlotWidth+:SlotWidth] <= SlotWidth'(ProductWidth'(uniform_q) * ProductWidth'(n_i) >> 24);
-    end
+    always_ff @(posedge clk_i) uniform_q <= word[l*32+8+:24];
+    logic [ProductWidth-1:0] place;
+    mote_times #(.AWidth(24), .BWidth(CountWidth), .Product(Product)) u_place (
+        .clk_i, .a_i(uniform_q), .b_i(n_i), .p_o(place));
+    assign slot[l*SlotWidth+:SlotWidth] = place[24+:SlotWidth];
     lane_t turn;
     assign turn = Choice == 0 || Lanes == 1 ? '0 : Choice == 1 ? word[7-:LaneWidth] : word[l*32+7-:LaneWidth];
-    mote_delay #(.Width(LaneWidth), .Depth(2)) u_from (
+    mote_delay #(.Width(LaneWidth), .Depth(1 + Product)) u_from (
         .clk_i, .d_i(Choice == 2 ? turn : LaneWidth'(l) + turn), .d_o(from[l*LaneWidth+:LaneWidth]));
     logic unused_word;
-    assign unused_word = ^word[l*32+:8];
+    assign unused_word = ^{word[l*32+:8], place};
   end
 
   // ---- memories: one a chain, in turn with the lanes; or a copy of all for every lane
   if (Choice == 2) begin : gen_shared
-    logic [Lanes*(SlotWidth+1)-1:0] slot;
+    logic [Lanes*(SlotWidth+1)-1:0] read_slot;
     for (genvar l = 0; l < Lanes; l++) begin : gen_lane
-      assign slot[l*(SlotWidth+1)+:SlotWidth+1] = {bank_i, slot_q[l*SlotWidth+:SlotWidth]};
+      assign read_slot[l*(SlotWidth+1)+:SlotWidth+1] = {bank_i, slot[l*SlotWidth+:SlotWidth]};
     end
     mote_set #(.Lanes(Lanes), .Width(Width), .SlotWidth(SlotWidth + 1)) u_set (
         .clk_i,
         .write_i,
         .write_slot_i({write_bank_i, write_slot_i}),
         .write_state_i,
-        .read_slot_i(slot),
+        .read_slot_i(read_slot),
         .read_lane_i(from),
         .read_state_o(state_o));
   end else begin : gen_turns
@@ -78,7 +81,7 @@ module mote_parents #(
           .write_i,
           .write_at_i({write_bank_i, write_slot_i}),
           .write_word_i(write_state_i[l*Width+:Width]),
-          .read_at_i({bank_i, slot_q[reader*SlotWidth+:SlotWidth]}),
+          .read_at_i({bank_i, slot[reader*SlotWidth+:SlotWidth]}),
           .read_word_o(read[l*Width+:Width]));
       mote_delay #(.Width(LaneWidth), .Depth(2)) u_from (.clk_i, .d_i(from[l*LaneWidth+:LaneWidth]), .d_o(from4));
       assign state_o[l*Width+:Width] = read[from4*Width+:Width];

@@ -5,11 +5,13 @@
 //
 // formats  divisor_i: unsigned; reciprocal_o: unsigned, 18 bits; zeros_o: the leading zeros of the divisor
 // range    the divisor has at most MostZeros leading zeros
-// timing   load_i takes the divisor; reciprocal_o stands 5 cycles later, zeros_o a cycle later, until the next
+// timing   load_i takes the divisor; reciprocal_o stands 4 + Product cycles later, zeros_o a cycle later, until the next.
+//          Product: mote_times's
 // golden   reciprocal_of in mote/hardware/filters/offspring.hpp
 module mote_reciprocal #(
     parameter int unsigned Width = 34,
     parameter int unsigned MostZeros = 17,
+    parameter int unsigned Product = 1,
     localparam int unsigned ZerosWidth = $clog2(Width)
 ) (
     input  logic                  clk_i,
@@ -46,11 +48,11 @@ module mote_reciprocal #(
   logic [10:0] rest_q;
   logic [30:0] entry_q;
   logic [17:0] base_q;
-  logic signed [12:0] slope;
-  logic signed [24:0] product_q;
+  logic [23:0] product;
   logic signed [29:0] line_q;
   assign shifted = divisor_q << zeros_o;
-  assign slope = entry_q[12:0];
+  mote_times #(.AWidth(13), .BWidth(11), .ASigned(1'b1), .Product(Product)) u_product (
+      .clk_i, .a_i(entry_q[12:0]), .b_i(rest_q), .p_o(product));
   assign reciprocal_o = line_q[28:11];
   always_ff @(posedge clk_i) begin
     if (load_i) begin
@@ -60,9 +62,8 @@ module mote_reciprocal #(
     below_q   <= shifted[Width-2-:17];
     rest_q    <= below_q[10:0];
     entry_q   <= table_rom[below_q[16:11]];
-    product_q <= 25'(slope) * 25'($signed({1'b0, rest_q}));
     base_q    <= entry_q[30:13];
-    line_q    <= 30'($signed({1'b0, base_q, 11'b0})) + 30'(product_q);
+    line_q    <= 30'($signed({1'b0, base_q, 11'b0})) + 30'($signed(product));
   end
   logic unused_bits;
   assign unused_bits = ^{shifted, line_q[29], line_q[10:0]};

@@ -7,7 +7,7 @@
 // formats  weights and their scales: mote_weight's, short_i for schemes 0 and 1; parent_o: lane l has child Lanes k + l
 // range    as mote_offspring; a run's first weight comes after starts_i. Schemes 1 and 2 draw no children unless more_i says,
 //          a cycle after last_i, that a step follows
-// timing   the first parents are there 13 + 2 log2 Lanes cycles after last_i, or when the first row with children is reached, by
+// timing   the first parents are there 10 + 3 Product + 2 log2 Lanes cycles after last_i, or when the first row with children is reached, by
 //          other schemes later; total_i stands 1 + log2 Lanes cycles after last_i
 // golden   mote/hardware/filters/resampler.hpp
 module mote_resample #(
@@ -18,6 +18,7 @@ module mote_resample #(
     parameter int unsigned ScaleWidth = 12,
     parameter logic [63:0] Seed       = 64'd1,
     parameter int unsigned Stream     = 0,
+    parameter int unsigned Product    = 1,
     localparam int unsigned SumWidth  = Width + At
 ) (
     input  logic                         clk_i,
@@ -61,7 +62,7 @@ module mote_resample #(
       if (!rst_ni) drops_q <= 1'b0;
       else drops_q <= drops;
     end
-    mote_offspring #(.Lanes(Lanes), .At(At), .Width(Width)) u_offspring (
+    mote_offspring #(.Lanes(Lanes), .At(At), .Width(Width), .Product(Product)) u_offspring (
         .clk_i, .rst_ni,
         .drop_i(drops),
         .n_i,
@@ -92,14 +93,14 @@ module mote_resample #(
     assign unused_starts = starts_i;
     assign unused_weight = ^{weight_i, scale_i[ScaleWidth-1:3]};
     assign draws = total_valid;
-    mote_residual_systematic #(.At(At), .Width(Width)) u_residual (
+    mote_residual_systematic #(.At(At), .Width(Width), .Product(Product)) u_residual (
         .clk_i, .rst_ni, .n_i, .write_i, .last_i, .short_i, .rise_i, .scale_i(scale_i[2:0]), .total_valid_i(total_valid), .total_i,
         .uniform_i(word[31:8]), .more_i, .valid_o, .ready_i, .parent_o);
   end else begin : gen_roulette
     logic unused_starts, unused_short;
     assign unused_starts = starts_i;
     assign unused_short = ^{short_i, rise_i};
-    mote_roulette #(.At(At), .Width(Width), .ScaleWidth(ScaleWidth)) u_roulette (
+    mote_roulette #(.At(At), .Width(Width), .ScaleWidth(ScaleWidth), .Product(Product)) u_roulette (
         .clk_i, .rst_ni, .n_i, .write_i, .last_i, .weight_i, .scale_i, .total_valid_i(total_valid), .total_i, .more_i,
         .draw_o(draws), .uniform_i(word[31:8]), .valid_o, .ready_i, .parent_o);
   end

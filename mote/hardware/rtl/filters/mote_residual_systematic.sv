@@ -9,14 +9,15 @@
 //
 // formats  short_i, rise_i, scale_i: mote_weight's, of the scale its 3 lowest bits
 // range    1 <= n_i <= 2^At, At >= 6
-// timing   weights are read from the cycle after total_valid_i on, which comes a cycle after the last weight; a particle's
-//          first child shows 10 cycles after it is read, one child a cycle. A queue of Parents lets it run ahead
+// timing   weights are read from 2 Product - 1 cycles after total_valid_i on, which comes a cycle after the last weight; a particle's
+//          first child shows 9 + Product cycles after it is read, one child a cycle. A queue of Parents lets it run ahead
 // golden   mote/hardware/filters/residual.hpp
 // source   Bolic, Djuric & Hong 2003 (residual-systematic resampling)
 module mote_residual_systematic #(
     parameter int unsigned At         = 10,
     parameter int unsigned Width      = 24,
     parameter int unsigned Parents    = 128,
+    parameter int unsigned Product    = 1,
     localparam int unsigned SumWidth  = Width + At
 ) (
     input  logic                         clk_i,
@@ -38,7 +39,7 @@ module mote_residual_systematic #(
     input  logic                         ready_i,
     output logic        [At-1:0]         parent_o
 );
-  localparam int unsigned Latency = 9;               // from reading a weight to its children
+  localparam int unsigned Latency = 8 + Product;     // from reading a weight to its children
   localparam int unsigned Drop = At - 6;             // bits of N times the reciprocal that are left out
   localparam int unsigned Frac = 34 - Drop;          // fraction bits of w q
   localparam int unsigned Rest = Width - 17;         // bits of a weight that are carried to the next
@@ -60,7 +61,9 @@ module mote_residual_systematic #(
   end
 
   // ---- reading, as long as the queue will have room
-  logic reads, last_read, pop, left_out;
+  logic begins, more, reads, last_read, pop, left_out;  // the factor is there by the time that it is needed
+  mote_valid #(.Depth(2 * (Product - 1))) u_begins (.clk_i, .rst_ni, .valid_i(total_valid_i), .valid_o(begins));
+  mote_delay #(.Width(1), .Depth(2 * (Product - 1))) u_more (.clk_i, .d_i(more_i), .d_o(more));
   count_t left_q;
   logic [RoomWidth-1:0] room_q;
   logic [At-1:0] slot_q;
@@ -71,13 +74,13 @@ module mote_residual_systematic #(
       left_q <= '0;
       room_q <= RoomWidth'(Parents);
     end else begin
-      if (total_valid_i) left_q <= more_i ? n_i : '0;
+      if (begins) left_q <= more ? n_i : '0;
       else if (reads) left_q <= left_q - (At + 1)'(1);
       room_q <= room_q - RoomWidth'(reads) + RoomWidth'(pop) + RoomWidth'(left_out);
     end
   end
   always_ff @(posedge clk_i) begin
-    if (total_valid_i) slot_q <= '0;
+    if (begins) slot_q <= '0;
     else if (reads) slot_q <= slot_q + At'(1);
   end
   logic [17:0] word;
@@ -92,16 +95,15 @@ module mote_residual_systematic #(
   // ---- the factor N / T
   logic [ZerosWidth-1:0] zeros;
   logic [17:0] reciprocal;
-  logic [At+18:0] product_n_q;
+  logic [At+18:0] product_n;
   logic [23:0] factor_q;
   logic unused_product;
-  mote_reciprocal #(.Width(SumWidth), .MostZeros(At + 8)) u_reciprocal (
+  mote_reciprocal #(.Width(SumWidth), .MostZeros(At + 8), .Product(Product)) u_reciprocal (
       .clk_i, .load_i(total_valid_i), .divisor_i(total_i), .zeros_o(zeros), .reciprocal_o(reciprocal));
-  always_ff @(posedge clk_i) begin
-    product_n_q <= (At + 19)'(reciprocal) * (At + 19)'(n_i);
-    factor_q    <= product_n_q[Drop+:24];
-  end
-  assign unused_product = ^product_n_q;
+  mote_times #(.AWidth(18), .BWidth(At + 1), .Product(Product)) u_product_n (
+      .clk_i, .a_i(reciprocal), .b_i(n_i), .p_o(product_n));
+  always_ff @(posedge clk_i) factor_q <= product_n[Drop+:24];
+  assign unused_product = ^product_n;
 
   // ---- shares of T: what is cut off goes to the next weight
   logic [At-1:0] faint_before;
@@ -128,8 +130,9 @@ module mote_residual_systematic #(
   end
 
   // ---- children, and the residual
-  logic [40:0] product_q, product2_q;
-  logic [40:0] place;
+  logic [40:0] product, product2_q, place;
+  mote_times #(.AWidth(24), .BWidth(17), .Product(Product)) u_product (
+      .clk_i, .a_i(factor_q), .b_i(share_q), .p_o(product));
   logic [Frac-1:0] residual_q;
   logic place_valid, last8, child_valid_q;
   logic [At-1:0] slot8, child_slot_q;
@@ -143,8 +146,7 @@ module mote_residual_systematic #(
     else child_valid_q <= place_valid;
   end
   always_ff @(posedge clk_i) begin
-    product_q  <= 41'(share_q) * 41'(factor_q);
-    product2_q <= product_q;
+    product2_q <= product;
     if (total_valid_i) begin
       residual_q      <= {uniform_i, {(Frac - 24) {1'b0}}};
       children_left_q <= n_i;

@@ -7,7 +7,7 @@
 //
 // formats  weights: unsigned; sums and thresholds: exact integers of Width + At bits, u_j T cut
 // range    1 <= n_i <= 2^At, At >= 2
-// timing   the first parent shows 6 + 4 At cycles after total_valid_i, which may come a cycle after the last weight; then
+// timing   the first parent shows 5 + Product + 4 At cycles after total_valid_i, which may come a cycle after the last weight; then
 //          one a cycle. A queue lets it run ahead
 // golden   mote/hardware/filters/roulette.hpp
 // source   FPGA, sec. II: r ~ U[0, 1], the first particle whose cumulative sum passes r
@@ -15,6 +15,7 @@ module mote_roulette #(
     parameter int unsigned At         = 10,
     parameter int unsigned Width      = 24,
     parameter int unsigned ScaleWidth = 12,
+    parameter int unsigned Product    = 1,
     localparam int unsigned SumWidth  = Width + At
 ) (
     input  logic                         clk_i,
@@ -37,7 +38,7 @@ module mote_roulette #(
     input  logic                         ready_i,
     output logic        [At-1:0]         parent_o
 );
-  localparam int unsigned Latency = 4 + 4 * At;               // from drawing to the queue
+  localparam int unsigned Latency = 3 + Product + 4 * At;     // from drawing to the queue
   localparam int unsigned Parents = 1 << $clog2(Latency + 4);  // so that the queue never runs dry
   localparam int unsigned RoomWidth = $clog2(Parents) + 1;
   localparam int unsigned Low = 17;                           // bits of the total that one multiplier takes
@@ -99,15 +100,17 @@ module mote_roulette #(
 
   // ---- thresholds
   logic [23:0] uniform_q;
-  logic [Low+23:0] low_q, low2_q;
-  logic [SumWidth-Low+23:0] high_q, high2_q;
+  logic [Low+23:0] low, low2_q;
+  logic [SumWidth-Low+23:0] high, high2_q;
+  mote_times #(.AWidth(Low), .BWidth(24), .Product(Product)) u_low (
+      .clk_i, .a_i(total_q[Low-1:0]), .b_i(uniform_q), .p_o(low));
+  mote_times #(.AWidth(SumWidth - Low), .BWidth(24), .Product(Product)) u_high (
+      .clk_i, .a_i(total_q[SumWidth-1:Low]), .b_i(uniform_q), .p_o(high));
   logic [SumWidth-1:0] threshold_q;
   always_ff @(posedge clk_i) begin
     uniform_q   <= uniform_i;
-    low_q       <= (Low + 24)'(total_q[Low-1:0]) * (Low + 24)'(uniform_q);
-    high_q      <= (SumWidth - Low + 24)'(total_q[SumWidth-1:Low]) * (SumWidth - Low + 24)'(uniform_q);
-    low2_q      <= low_q;
-    high2_q     <= high_q;
+    low2_q      <= low;
+    high2_q     <= high;
     threshold_q <= SumWidth'(({high2_q, {Low{1'b0}}} + (SumWidth + 24)'(low2_q)) >> 24);
   end
 

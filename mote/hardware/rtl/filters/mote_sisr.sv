@@ -10,8 +10,8 @@
 //
 // formats  states: Dims signed words of ValueWidth bits; log weights: signed, octaves, 10 fraction bits
 // range    Lanes 1, 2, 4 or 8; n_i a multiple of it, from Lanes to 2^At; At >= 6. Registers are read at start_i
-// timing   a particle a cycle and lane, as long as there are parents; a step's first are there 16 cycles (with several lanes
-//          17 + 2 log2 Lanes) after its last state left weigh, or when its first row with children is
+// timing   a particle a cycle and lane, as long as there are parents; a step's first are there 13 + 3 Product cycles (with several
+//          lanes 14 + 3 Product + 2 log2 Lanes) after its last state left weigh, or when its first row with children is
 //          reached. The golden model counts cycles exactly
 // golden   mote/hardware/filters/sisr.hpp
 // source   FPGA (merged loops, dataflow); Kitagawa 1996
@@ -30,6 +30,7 @@ module mote_sisr #(
     parameter int unsigned WeighLatency   = 4,
     parameter logic [63:0] Seed           = 64'd1,
     parameter int unsigned Stream         = 0,
+    parameter int unsigned Product        = 1,
     parameter Exp2Table                   = "exp2.hex",
     localparam int unsigned ScaleWidth = LogWidth - 12,
     localparam int unsigned SumWidth   = WeightWidth + At,
@@ -180,7 +181,8 @@ module mote_sisr #(
   logic [15:0] estimates_left_q;
   logic [SumWidth-1:0] total;
   mote_resample #(
-      .Lanes(Lanes), .Scheme(Scheme), .At(At), .Width(WeightWidth), .ScaleWidth(ScaleWidth), .Seed(Seed), .Stream(Stream)
+      .Lanes(Lanes), .Scheme(Scheme), .At(At), .Width(WeightWidth), .ScaleWidth(ScaleWidth), .Seed(Seed), .Stream(Stream),
+      .Product(Product)
   ) u_resample (
       .clk_i, .rst_ni,
       .starts_i(starts),
@@ -206,7 +208,8 @@ module mote_sisr #(
     else if (kept_last) estimates_left_q <= estimates_left_q - 16'd1;
   end
   mote_estimate #(
-      .Lanes(Lanes), .Dims(Dims), .ValueWidth(ValueWidth), .Width(WeightWidth), .At(At), .Extra(Extra), .ScaleWidth(ScaleWidth)
+      .Lanes(Lanes), .Dims(Dims), .ValueWidth(ValueWidth), .Width(WeightWidth), .At(At), .Extra(Extra), .ScaleWidth(ScaleWidth),
+      .Product(Product)
   ) u_estimate (
       .clk_i, .rst_ni,
       .weight_valid_i(kept_valid_o),

@@ -28,6 +28,7 @@ module mote_sisr_plain #(
     parameter int unsigned WeighLatency   = 4,
     parameter logic [63:0] Seed           = 64'd1,
     parameter int unsigned Stream         = 0,
+    parameter int unsigned Product        = 1,
     parameter Exp2Table                   = "exp2.hex",
     localparam int unsigned ScaleWidth = LogWidth - 12,
     localparam int unsigned SumWidth   = WeightWidth + At,
@@ -206,7 +207,8 @@ module mote_sisr_plain #(
   logic [15:0] estimates_left_q;
   logic parent_valid;
   mote_resample #(
-      .Scheme(Scheme), .At(At), .Width(WeightWidth), .ScaleWidth(ScaleWidth), .Seed(Seed), .Stream(Stream)
+      .Scheme(Scheme), .At(At), .Width(WeightWidth), .ScaleWidth(ScaleWidth), .Seed(Seed), .Stream(Stream),
+      .Product(Product)
   ) u_parent (
       .clk_i, .rst_ni,
       .starts_i(starts),
@@ -239,7 +241,8 @@ module mote_sisr_plain #(
     else if (weight_last) estimates_left_q <= estimates_left_q - 16'd1;
   end
   mote_estimate #(
-      .Dims(Dims), .ValueWidth(ValueWidth), .Width(WeightWidth), .At(At), .Extra(Extra), .ScaleWidth(ScaleWidth)
+      .Dims(Dims), .ValueWidth(ValueWidth), .Width(WeightWidth), .At(At), .Extra(Extra), .ScaleWidth(ScaleWidth),
+      .Product(Product)
   ) u_estimate (
       .clk_i, .rst_ni,
       .weight_valid_i(weight_valid),
