@@ -1,6 +1,7 @@
 // `mote design explore` at full length: its pick against a sweep of all candidates.
 
 #include <algorithm>
+#include <stdexcept>
 #include <tuple>
 
 #include <gtest/gtest.h>
@@ -21,8 +22,10 @@ Json explored(const Scratch& scratch, const std::string& words) {
 
 /// What a candidate of another exploration came to in this one.
 const Json& of(const Json& sweep, const Json& pick) {
-  return *std::find_if(sweep["all"].begin(), sweep["all"].end(),
-                       [&](const Json& one) { return one["words"] == pick["words"]; });
+  const auto found = std::find_if(sweep["all"].begin(), sweep["all"].end(),
+                                  [&](const Json& one) { return one["words"] == pick["words"]; });
+  if (found == sweep["all"].end()) throw std::runtime_error("no candidate " + pick["words"].dump());
+  return *found;
 }
 
 // claim    the pick by halving errs at most 5 % more than the best of a sweep

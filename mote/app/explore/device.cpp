@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -62,8 +63,8 @@ bool has_lanes(const std::string& kind) {
 
 class Device final : public Target {
  public:
-  Device(const Space& space, const Recording& counted)
-      : space_(space), device_(resources_of(space.detail, space.where)), counted_(counted) {
+  Device(const Space& space, Recording counted)
+      : space_(space), device_(resources_of(space.detail, space.where)), counted_(std::move(counted)) {
     std::vector<std::string> names;
     for (const auto& [kind, variants] : circuits()) names.push_back(kind);
     std::vector<Words> all;
@@ -111,7 +112,8 @@ class Device final : public Target {
     }
     std::vector<Piece> all;
     for (const auto* kind : {&filters, &pipelines})
-      for (const auto& [name, part] : *kind) all.emplace_back([part](Memory& memory) { remembered(part, memory); });
+      for (const auto& [name, part] : *kind)
+        all.emplace_back([part = part](Memory& memory) { remembered(part, memory); });
     return all;
   }
   std::vector<double> takes(std::size_t c, Memory& memory) const override {
@@ -123,7 +125,7 @@ class Device final : public Target {
     const auto cycles = memory.recall(fmt::format("cycles {}", fmt::join(candidates_[c], " ")), 1, [&] {
       return std::vector<double>{static_cast<double>(golden_cycles(circuit, design, counted_, space_.where))};
     });
-    const double steps = static_cast<double>(counted_.steps.back().t);
+    const auto steps = static_cast<double>(counted_.steps.back().t);
     const double area = std::max({share(cost.lut, device_.lut), share(cost.ff, device_.ff),
                                   share(cost.dsp, device_.dsp), share(cost.bram18, device_.bram18)});
     return {cycles.front() / steps / (*cost.fmax_mhz * 1e6),

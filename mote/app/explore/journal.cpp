@@ -52,9 +52,9 @@ std::optional<Errors> errors_of(const Json& reference, const Json& truth) {
 
 /// What a line has by a name; null where it has nothing.
 const Json& part_of(const Json& line, const char* name) {
-  static const Json kNothing;
+  static const Json nothing;
   const auto found = line.find(name);
-  return found == line.end() ? kNothing : *found;
+  return found == line.end() ? nothing : *found;
 }
 
 Refusal cannot_write(const std::string& path, const std::string& why) {

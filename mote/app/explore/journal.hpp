@@ -53,7 +53,7 @@ class Journal final : public Memory {
 
   /// Whether there is anything in the file, once what was cut short is gone.
   bool read(const RunFacts& facts);
-  void take(std::string_view text, std::size_t line);
+  void take(std::string_view text, std::size_t number);
   void check_facts(const nlohmann::json& kept, const RunFacts& facts) const;
   [[noreturn]] void refuse_line(std::size_t line, const std::string& expected, const std::string& got) const;
   void append(const nlohmann::json& line);

@@ -35,7 +35,7 @@ std::vector<Words> accepted(const Space& space, const std::vector<Words>& all, c
       if (!first) first = refusal;
     }
   }
-  if (left.empty()) throw *first;
+  if (left.empty()) throw Refusal(*first);
   return left;
 }
 
@@ -44,7 +44,11 @@ std::vector<std::string> kinds_of(const Space& space, const std::vector<std::str
     if (std::find(all.begin(), all.end(), kind) == all.end())
       throw Refusal(ExitCode::kWrongUse, {space.where, "--kinds", fmt::format("some of {}", fmt::join(all, ", ")),
                                           '"' + kind + '"', hint(kind, all, "Leave --kinds out for all of them.")});
-  return space.kinds.empty() ? all : space.kinds;
+  std::vector<std::string> told = all;
+  std::erase_if(told, [&](const std::string& kind) {
+    return !space.kinds.empty() && std::find(space.kinds.begin(), space.kinds.end(), kind) == space.kinds.end();
+  });
+  return told;
 }
 
 std::string settings_of(const Space& space) {

@@ -95,7 +95,7 @@ const std::vector<TargetKind>& target_kinds();
 std::vector<Words> accepted(const Space& space, const std::vector<Words>& all, const std::string& needs,
                             const std::function<void(const Words&)>& accepts);
 
-/// Kinds that were told, out of those there are.
+/// Kinds that were told, out of those there are, each once, in their order.
 ///
 /// error   Refusal (kWrongUse) for one that there is not
 std::vector<std::string> kinds_of(const Space& space, const std::vector<std::string>& all);

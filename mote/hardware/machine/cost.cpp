@@ -1,6 +1,7 @@
 #include "mote/hardware/machine/cost.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "mote/base/refusal.hpp"
 #include "mote/base/scratch_folder.hpp"
@@ -54,11 +55,16 @@ std::optional<double> yosys_sta(const Design& design) {
   return std::stod(said.substr(colon + 5)) / 1000;
 }
 
+/// The area and the slowest path of a module in a folder.
+std::pair<Area, SlowestPath> synthesised(const std::string& folder, const std::string& top) {
+  const std::string netlist = folder + "netlist.json";
+  const Area area = xc7_area(cells_after(folder, xc7_script(top) + "; write_json " + netlist));
+  return {area, slowest_path(read_text(netlist), top)};
+}
+
 template <class Design>
 Cost xc7_cost(const Design& design, const std::string& folder, const Activity& activity) {
-  const std::string netlist = folder + "netlist.json";
-  const Area area = xc7_area(cells_after(folder, xc7_script(top_of(design)) + "; write_json " + netlist));
-  const SlowestPath path = slowest_path(read_text(netlist), top_of(design));
+  const auto [area, path] = synthesised(folder, top_of(design));
   Cost cost{"XC7A100T-1 after synthesis; slowest path " + short_number(path.ns) + " ns of cells (" + path.cells + ")",
             area.lut, area.ff, area.dsp, area.bram18};
   cost.fmax_mhz = clock_of_path(path.ns);
@@ -126,10 +132,9 @@ Circuit filter_alone(const Machine& machine) {
 PartCost part_cost(const Circuit& circuit) {
   const ScratchFolder scratch;
   const std::string folder = scratch.path().string() + "/";
-  const std::string netlist = folder + "netlist.json";
   write_bench(folder, "core", {circuit});
-  const Area area = xc7_area(cells_after(folder, xc7_script("core") + "; write_json " + netlist));
-  return {area, slowest_path(read_text(netlist), "core").ns};
+  const auto [area, path] = synthesised(folder, "core");
+  return {area, path.ns};
 }
 
 Cost cost_of_parts(const Machine& machine, const PartCost& propose, const PartCost& weigh, const PartCost& filter) {
