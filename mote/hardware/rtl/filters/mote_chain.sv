@@ -27,23 +27,28 @@ module mote_chain #(
     output logic [StateWidth-1:0]      state_o,
     output logic [StateWidth-1:0]      current_o
 );
-  typedef logic signed [LogWidth:0] bound_t;
   logic [31:0] word;
   logic [15:0] drop;
   mote_words #(.Seed(Seed), .Stream(Stream)) u_words (.clk_i, .rst_ni, .advance_i(word_i), .word_o(word));
   mote_log_uniform #(.Table(Log2Table)) u_log_uniform (.clk_i, .word_i(word), .drop_o(drop));
 
-  bound_t bound_q;
-  logic signed [LogWidth-1:0] log_q, current_log_q;
-  assign accepts_o = (LogWidth + 1)'(current_log_q) <= bound_q;
+  // lw <= b is the carry of b - lw, whose sides stand in registers as the sum takes them: with their sign bits turned over, lw as
+  // its complement.
+  logic signed [LogWidth:0] bound;
+  logic [LogWidth:0] bound_q, unused_difference;
+  logic [LogWidth-1:0] not_log_q, not_current_q;
+  logic unused_carry;
+  assign bound = (LogWidth + 1)'(log_weight_i) + (LogWidth + 1)'({1'b0, drop});
+  assign {accepts_o, unused_difference, unused_carry} =
+      {1'b0, bound_q, 1'b1} + {1'b0, ~not_current_q[LogWidth-1], not_current_q, 1'b1};
   assign state_o = accepts_o ? state_i : current_o;
   always_ff @(posedge clk_i) begin
-    bound_q <= first_i ? {1'b0, {LogWidth{1'b1}}} : (LogWidth + 1)'(log_weight_i) + (LogWidth + 1)'({1'b0, drop});
-    log_q   <= log_weight_i;
+    bound_q   <= first_i ? '1 : {~bound[LogWidth], bound[LogWidth-1:0]};
+    not_log_q <= ~log_weight_i;
     if (decides_i && accepts_o) current_o <= state_i;
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin  // a number from the first comparison on
-    if (!rst_ni) current_log_q <= '0;
-    else if (decides_i && accepts_o) current_log_q <= log_q;
+    if (!rst_ni) not_current_q <= '0;
+    else if (decides_i && accepts_o) not_current_q <= not_log_q;
   end
 endmodule
