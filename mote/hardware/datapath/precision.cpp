@@ -19,16 +19,18 @@ using graph::Vertex;
 constexpr double kNoiseShare = 16, kErrorShare = 32;         // a step is at most such a part of either
 constexpr double kLogStep = 1.0 / 16, kStateLogStep = 0.25;  // octaves
 constexpr double kFaintOctaves = 8;
+constexpr double kWorst = 8;  // times what is borne in the mean that no sample may exceed
 constexpr int kMostFraction = 30, kMostBits = 40, kMostOfFunction = 24;
 constexpr int kConstantBits = 3;  // more: a constant's error is the same for all particles
 
-/// Mean squares of slopes, each finite one.
+/// Mean squares of slopes, each finite one, and the largest.
 struct Squares {
-  double sum = 0;
+  double sum = 0, largest = 0;
   std::size_t count = 0;
   void add(double value) {
     if (!std::isfinite(value)) return;
     sum += value * value;
+    largest = std::max(largest, value * value);
     ++count;
   }
   double mean() const { return count == 0 ? 0 : sum / static_cast<double>(count); }
@@ -139,7 +141,9 @@ class Analysis {
     for (const Id id : tape.order()) {
       const Role role = plan_.graph[id].role;
       const bool state = plan_.graph[id].op == Op::kInput && (role == Role::kState || role == Role::kBefore);
-      need(id, std::sqrt(squares[id].mean()) / (state ? kStateLogStep : kLogStep));
+      // the logarithm of a density is steep where the density is small: rare, but then an error of octaves
+      const double slope = std::sqrt(std::max(squares[id].mean(), squares[id].largest / (kWorst * kWorst)));
+      need(id, slope / (state ? kStateLogStep : kLogStep));
     }
   }
 
