@@ -72,8 +72,9 @@ TEST_F(Mpi, AHundredJobsLoseARankEach) {
     ASSERT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(15)) << "a lost rank ends the job";
     if (end.code != 0) {
       ++ended;
-      if (scratch_.files().contains("e.csv"))  // the rank was lost after the first one had written
+      if (scratch_.files().contains("e.csv")) {  // the rank was lost after the first one had written
         ASSERT_EQ(scratch_.read("e.csv"), whole) << k;
+      }
       ASSERT_EQ(Job(scratch_, 2, words).end().code, 0);
     }
     ASSERT_EQ(scratch_.read("e.csv"), whole) << k;

@@ -153,7 +153,7 @@ inline constexpr std::array<std::string_view, 5> kClusterKeys{"seconds", "speedu
 inline constexpr std::array<std::string_view, 2> kDesignFigures{"pairs", "weighers"};
 
 /// The figures of a circuit: of a run of the recording, of its area, and the cycles of a step over the latency law's.
-inline constexpr std::array<std::string_view, 13> kCircuitKeys{"cycles",
+inline constexpr std::array<std::string_view, 14> kCircuitKeys{"cycles",
                                                                "golden_cycles",
                                                                "mismatches",
                                                                "stages",
@@ -162,6 +162,7 @@ inline constexpr std::array<std::string_view, 13> kCircuitKeys{"cycles",
                                                                "dsp",
                                                                "bram18",
                                                                "fmax_mhz",
+                                                               "sta_ns",
                                                                "milliseconds",
                                                                "power_mw",
                                                                "uj_per_step",
