@@ -153,20 +153,9 @@ inline constexpr std::array<std::string_view, 5> kClusterKeys{"seconds", "speedu
 inline constexpr std::array<std::string_view, 2> kDesignFigures{"pairs", "weighers"};
 
 /// The figures of a circuit: of a run of the recording, of its area, and the cycles of a step over the latency law's.
-inline constexpr std::array<std::string_view, 14> kCircuitKeys{"cycles",
-                                                               "golden_cycles",
-                                                               "mismatches",
-                                                               "stages",
-                                                               "lut",
-                                                               "ff",
-                                                               "dsp",
-                                                               "bram18",
-                                                               "fmax_mhz",
-                                                               "sta_ns",
-                                                               "milliseconds",
-                                                               "power_mw",
-                                                               "uj_per_step",
-                                                               "step_cycles_over_law"};
+inline constexpr std::array<std::string_view, 14> kCircuitKeys{
+    "cycles", "golden_cycles", "mismatches", "stages",       "lut",      "ff",          "dsp",
+    "bram18", "fmax_mhz",      "sta_ns",     "milliseconds", "power_mw", "uj_per_step", "step_cycles_over_law"};
 
 /// The figures of a track that a comparison may ask for; those of time are a particle's stages in microseconds, and how
 /// much longer than the others its weight takes.
