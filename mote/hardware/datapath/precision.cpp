@@ -19,7 +19,8 @@ using graph::Vertex;
 constexpr double kNoiseShare = 16, kErrorShare = 32;         // a step is at most such a part of either
 constexpr double kLogStep = 1.0 / 16, kStateLogStep = 0.25;  // octaves
 constexpr double kFaintOctaves = 8;
-constexpr double kWorst = 8;  // times what is borne in the mean that no sample may exceed
+// times what is borne in the mean that no sample may exceed; of pairs less, whose log density is steep in few places
+constexpr double kWorst = 8, kWorstOfPairs = 0.25;
 constexpr int kMostFraction = 30, kMostBits = 40, kMostOfFunction = 24;
 constexpr int kConstantBits = 3;  // more: a constant's error is the same for all particles
 
@@ -126,6 +127,7 @@ class Analysis {
   void of_log_weight() {
     Tape tape(plan_, recorded_, Part::kWeigh);
     std::vector<Squares> squares(plan_.graph.size());
+    const double worst = recorded_.log_ratio ? kWorstOfPairs : kWorst;
     double greatest = -kInfinity;
     for (const auto& call : samples_.of(Part::kWeigh)) {
       tape.evaluate(call);
@@ -142,7 +144,7 @@ class Analysis {
       const Role role = plan_.graph[id].role;
       const bool state = plan_.graph[id].op == Op::kInput && (role == Role::kState || role == Role::kBefore);
       // the logarithm of a density is steep where the density is small: rare, but then an error of octaves
-      const double slope = std::sqrt(std::max(squares[id].mean(), squares[id].largest / (kWorst * kWorst)));
+      const double slope = std::sqrt(std::max(squares[id].mean(), squares[id].largest / (worst * worst)));
       need(id, slope / (state ? kStateLogStep : kLogStep));
     }
   }

@@ -21,9 +21,9 @@ struct Precision {
 ///
 /// Rounding adds D^2 / 12, so that one word adds less than 0.1 % to a noise's variance. Slopes of l count less where
 /// the weight is small: by 1 / (1 + d / 8) at d octaves below the largest l of the samples. A state's own step may
-/// change l by a quarter of an octave. No sample may be eight times worse than that: a slope that is steep in few
-/// places, as that of the log of a mixture's density, is not averaged away. What floor() and comparisons read is known
-/// to 2^-8 and to a thousandth of its range.
+/// change l by a quarter of an octave. No sample may be eight times worse than that, and of pairs of state and parent a
+/// quarter: the log of a mixture's density is steep in few places, which must not be averaged away. What floor() and
+/// comparisons read is known to 2^-8 and to a thousandth of its range.
 ///
 /// Integer bits hold what was sampled, widened by `margin`, or what interval analysis allows where that costs at most
 /// two bits more; words saturate.
