@@ -1,6 +1,6 @@
 #include "mote/base/log_gamma.hpp"
 
-#include <math.h>  // lgamma_r, which <cmath> need not declare
+#include <cmath>
 
 namespace mote {
 
