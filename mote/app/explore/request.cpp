@@ -157,8 +157,7 @@ std::vector<OptionSpec> explore_options() {
        space},
       {"--kinds", "LIST", "",
        "cpu: sisr, imh, auxiliary, sqmc, distributed; cluster: sisr, imh, distributed, stages; fpga: kinds of mote "
-       "rtl; mixed: "
-       "sisr, imh [all]",
+       "rtl; mixed: sisr, imh [all]",
        space},
       {"-n,--particles", "LIST", "",
        "numbers of particles [cpu: 64 to 65536, cluster: 4096 to 65536, fpga: 128 to 4096, mixed: 64 to 4096]", space},
