@@ -19,6 +19,12 @@ enum class Engine {
   kPipeline,   ///< the reference's filters, the stages of a step side by side
 };
 
+/// What a filter sums up in passing.
+enum class Estimates {
+  kMeans,    ///< means; the SIMD engine then gives NaN as standard deviations
+  kSpreads,  ///< means and standard deviations
+};
+
 class Team;
 
 /// Proposers, or weighers, that a plan may ask for.
@@ -35,6 +41,7 @@ struct Plan {
   ChainOptions chain;
   GroupOptions groups;
   OnCollapse on_collapse = OnCollapse::kStop;
+  Estimates estimates = Estimates::kSpreads;
   Engine engine = Engine::kFastest;
   std::size_t threads = 1;  ///< results never depend on them
   std::size_t proposers =

@@ -61,10 +61,12 @@ class Generators {
     return Words::map([](auto x) { return hn::RotateRight<64 - kLeft>(x); }, a);
   }
   static MOTE_INLINE Words joined(const Words& low, const Words& high) {
-    return Words::map([](auto l, auto h) { return hn::Or(l, hn::ShiftLeft<32>(h)); }, low, high);
+    return Words::map(
+        [](auto l, auto h) { return hn::OrAnd(hn::ShiftLeft<32>(h), l, hn::Set(Words::Tag{}, 0xFFFFFFFFU)); }, low,
+        high);
   }
 
-  /// Philox4x32-10 on the low halves of 64-bit lanes.
+  /// Philox4x32-10 on the low halves of 64-bit lanes; what it leaves in the high halves means nothing.
   static MOTE_INLINE void encrypt(std::array<Words, 4>& c, std::uint64_t seed) {
     using Tag = Words::Tag;
     using Halves = Registers<std::uint32_t>;
@@ -79,16 +81,13 @@ class Generators {
           a);
     };
     const auto high = [](const Words& a) { return Words::map([](auto x) { return hn::ShiftRight<32>(x); }, a); };
-    const auto low = [](const Words& a) {
-      return Words::map([](auto x) { return hn::And(x, hn::Set(Tag{}, 0xFFFFFFFFU)); }, a);
-    };
     for (int round = 0; round < 10; ++round) {
       const Words first = product(c[0], 0xD2511F53U);
       const Words second = product(c[2], 0xCD9E8D57U);
       c[0] = mixed_in(mixed_in(high(second), c[1]), Words::all(key0));
       c[2] = mixed_in(mixed_in(high(first), c[3]), Words::all(key1));
-      c[1] = low(second);
-      c[3] = low(first);
+      c[1] = second;
+      c[3] = first;
       key0 += 0x9E3779B9U;
       key1 += 0xBB67AE85U;
     }
@@ -153,9 +152,34 @@ class NormalPolynomials<double> {
  public:
   NormalPolynomials() : table_(&normal_table()) {}
 
+#if HWY_TARGET <= HWY_AVX3
   /// |z| for the numbers u = p 2^64, p >= 2^-9, given by their bits.
-  MOTE_INLINE Vector<double> operator()(const Registers<std::uint64_t>& u) const { return from(table_->wide, u); }
+  MOTE_INLINE Vector<double> operator()(const Registers<std::uint64_t>& u) const { return from(table_->halves, u); }
   /// The same for 2^-17 <= p < 2^-9.
+  MOTE_INLINE Vector<double> low(const Registers<std::uint64_t>& u) const { return from(table_->halves_low, u); }
+
+ private:
+  using Part = std::array<std::array<double, 16>, NormalTable::kDegreeHalves + 1>;
+
+  static MOTE_INLINE Vector<double> from(const Part& part, const Registers<std::uint64_t>& u) {
+    using Tag = Registers<std::uint64_t>::Tag;
+    using Register = Registers<double>::Register;
+    // without its highest bit the mantissa is that of v or of v - 1/2, both in [1, 3/2)
+    const auto v = Registers<std::uint64_t>::map(
+        [](auto x) { return hn::OrAnd(hn::Set(Tag{}, 0x3FF0000000000000ULL), x, hn::Set(Tag{}, 0x7FFFFFFFFFFFFULL)); },
+        u);
+    const Vector<double> s = Vector<double>(v.template as<double>()) - Vector<double>(1.25);
+    const __m512i half_octave = _mm512_srli_epi64(u.r[0].raw, 51);  // of which the look-up takes four bits
+    return horner<NormalTable::kDegreeHalves>(
+        s, [&](std::size_t j) __attribute__((always_inline)) {
+          return Vector<double>(Registers<double>{
+              { Register {
+                _mm512_permutex2var_pd(_mm512_load_pd(part[j].data()), half_octave, _mm512_load_pd(part[j].data() + 8))
+              } }});
+        });
+  }
+#else
+  MOTE_INLINE Vector<double> operator()(const Registers<std::uint64_t>& u) const { return from(table_->wide, u); }
   MOTE_INLINE Vector<double> low(const Registers<std::uint64_t>& u) const { return from(table_->wide_low, u); }
 
  private:
@@ -172,13 +196,7 @@ class NormalPolynomials<double> {
         s, [&](std::size_t j) __attribute__((always_inline)) { return entry(part[j], exponent); });
   }
   static MOTE_INLINE Vector<double> entry(const std::array<double, 8>& row, const Registers<std::uint64_t>& exponent) {
-#if HWY_TARGET <= HWY_AVX3
-    using Register = Registers<double>::Register;
-    return Vector<double>(Registers<double>{
-        { Register {
-          _mm512_permutexvar_pd(exponent.r[0].raw, _mm512_load_pd(row.data()))
-        } }});
-#elif HWY_TARGET == HWY_AVX2
+#if HWY_TARGET == HWY_AVX2
     return Vector<double>(Registers<double>::map(
         [&](auto e) {
           // a double is two floats: 2 e and 2 e + 1 in the halves of the lane
@@ -201,6 +219,7 @@ class NormalPolynomials<double> {
         exponent));
 #endif
   }
+#endif
 
   const NormalTable* table_;
 };

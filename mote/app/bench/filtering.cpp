@@ -39,8 +39,12 @@ Verdict near_the_grid(const Entrant& entrant, const std::vector<double>& exact) 
 Task growth(const TaskEntry& entry, Precision precision, const contenders::Description& limit) {
   const auto course = simulated_course("ungm", kSteps, kRecording);
   Task task{entry.name, entry.meaning, Clock::kThread, course->steps(), {}, {}};
-  task.entrants = {filter_entrant("simd", course, plan_of(Engine::kSimd, precision)),
-                   contender_entrant(contenders::kBaseline, course), contender_entrant(limit, course),
+  Plan means = plan_of(Engine::kSimd, precision);  // all that the others form, too
+  means.estimates = Estimates::kMeans;
+  task.entrants = {filter_entrant("simd", course, means),
+                   filter_entrant("simd+sd", course, plan_of(Engine::kSimd, precision)),
+                   contender_entrant(contenders::kBaseline, course),
+                   contender_entrant(limit, course),
                    filter_entrant("reference", course, plan_of(Engine::kReference, precision)),
                    contender_entrant(contenders::kNumpy, course)};
   const auto solution = course->model->solver()->solve(course->scene.recording);

@@ -88,8 +88,9 @@ Plan plan_of(Engine engine, Precision precision, std::size_t threads) {
 Entrant filter_entrant(const std::string& name, std::shared_ptr<const Course> course, const Plan& plan) {
   const bool is_float = plan.precision == Precision::kFloat;
   const auto dimensions = static_cast<double>(course->model->states().size());
-  const std::string meaning = fmt::format("mote's {} engine, {}, {} thread{}", name_of(engine_of(plan)),
-                                          is_float ? "float" : "double", plan.threads, plan.threads == 1 ? "" : "s");
+  const std::string meaning = fmt::format("mote's {} engine, {}, {} thread{}{}", name_of(engine_of(plan)),
+                                          is_float ? "float" : "double", plan.threads, plan.threads == 1 ? "" : "s",
+                                          plan.estimates == Estimates::kMeans ? ", no standard deviations" : "");
   return {name, meaning, bytes_moved(engine_of(plan), dimensions, is_float ? 4 : 8), "",
           [course = std::move(course), plan] { return std::make_unique<FilterRacer>(course, plan); }};
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "mote/engine/plan.hpp"
 #include "mote/filter/weigh.hpp"
 #include "mote/lanes/functions.hpp"
 #include "mote/lanes/ready_draws.hpp"
@@ -35,12 +36,6 @@ template <class M, class V>
 requires MovesBlocks<M, V>
 struct BlocksOf<M, V> {
   using Type = typename M::template Blocks<V>;
-};
-
-/// What a filter sums up in passing.
-enum class Estimates {
-  kMeans,    ///< means; standard deviations are NaN
-  kSpreads,  ///< means and standard deviations
 };
 
 /// Moves, weighs and sums particles block by block; the sums of a step are added exactly, in whatever order.
@@ -172,9 +167,9 @@ class BlockPass {
   }
   /// Mean and standard deviation of component d of the last pass.
   Moments moments(std::size_t d) const {
-    if (!moments_known_) sums_.moments(totals_, moments_);
+    if (!moments_known_) sums_.moments(totals_, spreads_, moments_);
     moments_known_ = true;
-    return {moments_[d].mean, spreads_ ? moments_[d].sd : kNaN};
+    return moments_[d];
   }
 
   /// Takes in a step's rows; `like` is any set of particles to try the model on.
@@ -190,7 +185,13 @@ class BlockPass {
     if (!same_shape) note_pattern<Source::kProposal>(like);
   }
 
-  /// States and weights of block b, and its sums: from desk.columns to desk.to, under the step of the address.
+  /// Starts the draws of a block: before block(), and best while something else is waited for.
+  template <Source kSource>
+  void start(Desk& desk, const Address& address) {
+    desk.start(address, patterns_[static_cast<std::size_t>(kSource)]);
+  }
+
+  /// States and weights of block b at step t, and its sums: from desk.columns to desk.to, after start().
   ///
   /// shape   weights: (1024,); logs: (1024,) or null, log weights in nat, read where weights are carried, written where
   ///         the rows are taken in; mass: what carried log weights sum to, log
@@ -198,25 +199,23 @@ class BlockPass {
   /// Loops of their own make the draws, move, weigh and sum: a processor runs a short chain of operations for many
   /// vectors at once, a long one for few, and what they hand on stays in the first-level cache.
   template <Source kSource, Weights kWeights>
-  void block(Desk& desk, std::size_t b, const Address& address, R* weights, R* logs, double mass = 0) {
+  void block(Desk& desk, std::size_t b, Step t, R* weights, R* logs, double mass = 0) {
     constexpr bool kWeighs = Scene<kSource, kWeights>::kWeighs;
     const std::size_t n = size_of(b);
     R* const kept = logs == nullptr ? desk.log_weights.data() : logs;
-    const Scene<kSource, kWeights> scene{model_,       proposal_, static_cast<Step>(address.step), rows_,
-                                         mass,         kept,      desk.likelihoods.data(),         n,
-                                         desk.columns, desk.to};
+    const Scene<kSource, kWeights> scene{model_, proposal_,    t,      rows_, mass, kept, desk.likelihoods.data(),
+                                         n,      desk.columns, desk.to};
     if constexpr (kMovesBlocks)
       if (!desk.blocks) desk.blocks.emplace(model_);
     const lanes::DrawPattern& pattern = patterns_[static_cast<std::size_t>(kSource)];
     const std::size_t chunk = chunk_of(pattern);
     V most(kNothing);
-    desk.start(address, pattern);
     for (std::size_t start = 0; start < n; start += chunk) {
       const std::size_t end = std::min(start + chunk, n);
       desk.make_ready(pattern, end - start);
       if constexpr (kMovesBlocks) {
-        move_block<kSource>(desk, scene.t, start, end - start);
-        if constexpr (kWeighs) weigh_block(desk, scene.t, start, end - start);
+        move_block<kSource>(desk, t, start, end - start);
+        if constexpr (kWeighs) weigh_block(desk, t, start, end - start);
       } else {
         move(scene, start, end, desk.numbers.data());
       }
@@ -295,9 +294,12 @@ class BlockPass {
 
   /// The first `count` lanes; nothing in the others.
   static MOTE_INLINE V leading(const V& l, std::size_t count) {
-    alignas(64) std::array<R, kLanes> lane{};
-    for (std::size_t i = 0; i < kLanes; ++i) lane[i] = i < count ? R(1) : R(0);
-    return lanes::select(V(0) < V::load(lane.data()), l, V(kNothing));
+    alignas(64) static constexpr std::array<R, kLanes> kLane = [] {
+      std::array<R, kLanes> lane{};
+      for (std::size_t i = 0; i < kLanes; ++i) lane[i] = static_cast<R>(i);
+      return lane;
+    }();
+    return lanes::select(V::load(kLane.data()) < V(static_cast<R>(count)), l, V(kNothing));
   }
 
   /// What moving a vector of particles needs, in one place.

@@ -136,10 +136,11 @@ void BlockSums::complete_shifts() {
   for (std::size_t b = 0; b < shifts.size(); ++b) weights_[b].shift = shifts[b];
 }
 
-void BlockSums::moments(const Totals& totals, std::span<Moments> all) const {
-  if (!everyones_.empty()) return everyones_.front().moments(totals, all);
+void BlockSums::moments(const Totals& totals, bool spreads, std::span<Moments> all) const {
+  if (!everyones_.empty()) return everyones_.front().moments(totals, spreads, all);
   add_aligned(totals, [](std::size_t, double w, const ComponentSums& c) { return c.first + c.centre * w; });
-  for (std::size_t d = 0; d < dimensions_; ++d) all[d].mean = aligned_[d] / totals.weight;
+  for (std::size_t d = 0; d < dimensions_; ++d) all[d] = {aligned_[d] / totals.weight, kNaN};
+  if (!spreads) return;
   const auto about_the_mean = [&](std::size_t d, double w, const ComponentSums& c) {
     const double offset = c.centre - all[d].mean;
     return c.second + offset * (2 * c.first + offset * w);

@@ -90,8 +90,8 @@ class BlockSums {
   void keep(Archive& archive) { archive.fill(std::span(weights_)); }
 
   Totals totals() const;
-  /// Mean and standard deviation of every component.
-  void moments(const Totals& totals, std::span<Moments> all) const;
+  /// Mean and standard deviation of every component; NaN for the latter where no spreads were summed up.
+  void moments(const Totals& totals, bool spreads, std::span<Moments> all) const;
   /// Fills the map of so many children for u in (0, 1); with a team after totals() of the same sums.
   void map_children(const Totals& totals, double u, std::size_t children, ChildMap& map) const;
 

@@ -20,24 +20,23 @@ inline constexpr Isa kIsaHere = HWY_TARGET <= HWY_AVX3   ? Isa::kAvx512
                                                          : Isa::kSse4;
 
 template <class R, class G, Model M>
-std::unique_ptr<Filter> vector_filter(const M& model, const Plan& plan, Estimates estimates) {
+std::unique_ptr<Filter> vector_filter(const M& model, const Plan& plan) {
   if constexpr (std::is_same_v<G, Prior>)
     if (plan.filter != FilterKind::kSisr)
       return std::make_unique<VectorMetropolisFilter<M, R>>(model, plan.particles, plan.seed, plan.chain,
-                                                            plan.on_collapse, plan.threads, estimates, plan.team);
+                                                            plan.on_collapse, plan.threads, plan.estimates, plan.team);
   return std::make_unique<VectorImportanceFilter<M, R, G>>(model, plan.particles, plan.seed, plan.selection,
-                                                           plan.on_collapse, plan.threads, estimates, plan.team);
+                                                           plan.on_collapse, plan.threads, plan.estimates, plan.team);
 }
 
 /// A filter of the SIMD engine for a plan that has been checked and that simd_has(), or team_has() where it has a team.
 ///
 /// error   Refusal (kWrongUse) when the model has no proposal of that name, or its weights do not exist
 template <Model M>
-std::unique_ptr<Filter> make_vector_filter(const M& model, const Plan& plan, const std::string& where,
-                                           Estimates estimates = Estimates::kSpreads) {
+std::unique_ptr<Filter> make_vector_filter(const M& model, const Plan& plan, const std::string& where) {
   return with_proposal(model, plan, where, [&]<class G>(std::type_identity<G>) -> std::unique_ptr<Filter> {
-    return plan.precision == Precision::kFloat ? vector_filter<float, G>(model, plan, estimates)
-                                               : vector_filter<double, G>(model, plan, estimates);
+    return plan.precision == Precision::kFloat ? vector_filter<float, G>(model, plan)
+                                               : vector_filter<double, G>(model, plan);
   });
 }
 

@@ -173,11 +173,11 @@ class VectorImportanceFilter final : public Filter, public Elastic {
       Desk& desk = desks_[share];
       if (parents_ == Parents::kMapped) begin_children(desk, first * kBlock);
       for (std::size_t b = first; b < last; ++b) {
-        fetch_parents(desk, b);
         const Address address{seed_, static_cast<std::uint32_t>(t), purpose,
                               static_cast<std::uint32_t>(share_.first_block() + b)};
+        fetch_parents(desk, b, [&] { pass_.template start<kSource>(desk, address); });
         for (std::size_t d = 0; d < to.dimensions(); ++d) desk.to[d] = to.component(d).data() + b * kBlock;
-        pass_.template block<kSource, kWeights>(desk, b, address, weights.data() + b * kBlock,
+        pass_.template block<kSource, kWeights>(desk, b, t, weights.data() + b * kBlock,
                                                 carries_ ? log_weights_.data() + b * kBlock : nullptr, mass_);
       }
     });
@@ -196,17 +196,19 @@ class VectorImportanceFilter final : public Filter, public Elastic {
       desk.stream.begin(map_, now_, weights_.data(), static_cast<std::uint32_t>(first));
   }
 
-  /// Puts the states that block b starts from on the desk: the parents' copies, or its own.
-  void fetch_parents(Desk& desk, std::size_t b) {
+  /// Puts the states that block b starts from on the desk: the parents' copies, or its own. `meanwhile` is work that
+  /// needs none of them.
+  template <class Meanwhile>
+  void fetch_parents(Desk& desk, std::size_t b, const Meanwhile& meanwhile) {
     const std::size_t start = b * kBlock;
     const std::size_t n = pass_.size_of(b);
-    if (parents_ == Parents::kMapped) {
-      if (migration_)
-        migration_->fetch(start, n, desk.stream, desk.columns, desk.spare);
-      else
-        desk.stream.write(static_cast<std::uint32_t>(start), n, desk.columns);
-      return;
+    if (parents_ == Parents::kMapped && !migration_) {
+      desk.stream.mark(static_cast<std::uint32_t>(start), n);
+      meanwhile();
+      return desk.stream.expand(n, desk.columns);
     }
+    meanwhile();
+    if (parents_ == Parents::kMapped) return migration_->fetch(start, n, desk.stream, desk.columns, desk.spare);
     for (std::size_t d = 0; d < now_.dimensions(); ++d) {
       const std::span<const R> from = now_.component(d);
       if (parents_ == Parents::kListed) {

@@ -229,7 +229,8 @@ class VectorMetropolisFilter final : public Filter, public Elastic {
           for (std::size_t d = 0; d < to.dimensions(); ++d) std::copy_n(desk.to[d], pass_.size_of(b), desk.columns[d]);
         R* const logs = log_weights_.data() + b * kBlock;
         if constexpr (kWeights == Weights::kEqual) std::fill_n(logs, pass_.size_of(b), R(0));
-        pass_.template block<kSource, kWeights>(desk, b, address(t, purpose, b), desk.scratch.data() + kApart, logs);
+        pass_.template start<kSource>(desk, address(t, purpose, b));
+        pass_.template block<kSource, kWeights>(desk, b, t, desk.scratch.data() + kApart, logs);
       }
     });
     weighted_ = &to;

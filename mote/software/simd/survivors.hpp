@@ -33,7 +33,8 @@ class SurvivorStream {
         starts_(kCapacity + kSlack),
         storage_(dimensions),
         values_(column_pointers<R, kD>(dimensions)),
-        flags_(kBlock + kSlack) {
+        flags_(kBlock + kSlack),
+        cumulative_(kBlock) {
     for (std::size_t d = 0; d < dimensions; ++d) {
       storage_[d].resize(kCapacity + kSlack);
       values_[d] = storage_[d].data();
@@ -53,6 +54,13 @@ class SurvivorStream {
 
   /// Writes children [from, from + count) by component; calls come in order, count at most a block.
   void write(std::uint32_t from, std::size_t count, const ColumnPointers<R, kD>& to) {
+    mark(from, count);
+    expand(count, to);
+  }
+
+  /// The first half of write(): finds the survivors that begin among these children. What it stores byte by byte the
+  /// second half reads by vectors, so that other work between them costs less than after them.
+  void mark(std::uint32_t from, std::size_t count) {
     const auto end = from + static_cast<std::uint32_t>(count);
     while (map_->first[next_block_] < end) {
       make_room();
@@ -61,7 +69,27 @@ class SurvivorStream {
     // the last survivor that begins at or before `from` fills up what comes before the next one
     while (at_ + 1 < size_ && starts_[at_ + 1] <= static_cast<Whole>(from)) ++at_;
     flag(from, end);
-    expand(count, to);
+  }
+
+  /// The second half: child k continues survivor at_ + (marks among the first k + 1).
+  [[gnu::flatten, gnu::noinline]] void expand(std::size_t count, const ColumnPointers<R, kD>& to_columns) {
+    const auto values = values_;
+    const auto to = to_columns;
+    std::uint8_t* const all_flags = flags_.data();
+    std::size_t at = at_;
+    for (std::size_t out = 0; out < count; out += 64) {
+      std::uint64_t marks = lanes::marks_of(all_flags + out);
+      std::memset(all_flags + out, 0, 64);
+      for (std::size_t v = 0; v < 64 && out + v < count; v += kPer) {
+        const std::uint64_t mark = marks & ((std::uint64_t{1} << kPer) - 1);
+        marks >>= kPer;
+        const lanes::Repeater<R> repeated(mark);
+        const std::size_t from = at + (mark & 1U);  // a mark on the first child moves the load
+        for (std::size_t d = 0; d < to.size(); ++d) hn::Store(repeated(values[d] + from), kNumber, to[d] + out + v);
+        at += static_cast<std::size_t>(std::popcount(mark));
+      }
+    }
+    at_ = at;
   }
 
  private:
@@ -107,12 +135,6 @@ class SurvivorStream {
   static constexpr std::size_t kLanes = lanes::kWidth<R>;
   static constexpr std::size_t kPer = Registers::kPerRegister;
 
-  /// Asks for what the next block's scan reads from j on.
-  MOTE_INLINE void fetch_ahead(std::size_t j) const {
-    lanes::prefetch(weights_ + j + kBlock);
-    for (std::size_t d = 0; d < columns_.size(); ++d) lanes::prefetch(columns_[d] + j + kBlock);
-  }
-
   /// From the weights of a block to where their children end.
   ///
   /// Weights are rounded to whole units of 2^-30 (float) or 2^-51 (double) of the block's own sum, so the cumulative
@@ -151,54 +173,39 @@ class SurvivorStream {
   };
 
   /// Appends the particles of a block that have children: those whose end lies beyond their predecessor's.
+  ///
+  /// Two loops, each a short chain of operations for a vector: a processor keeps few long ones going at once.
   [[gnu::flatten, gnu::noinline]] void append(std::size_t block, std::size_t n, std::uint32_t first,
                                               std::uint32_t end) {
     const BlockScale scale(*map_, block, end);
-    const auto columns = columns_;
+    const R* const weights = weights_ + block * kBlock;
+    Whole* const cumulative = cumulative_.data();
+    auto carry = hn::Zero(kWhole);
+    for (std::size_t j = 0; j < n; j += kPer) {
+      const auto sums = lanes::running_sum(scale.units_of(weights + j));
+      hn::Store(hn::Add(sums, carry), kWhole, cumulative + j);
+      carry = hn::Add(carry, lanes::last_lane(sums));
+      lanes::prefetch(weights + j + kBlock);
+    }
+    auto columns = columns_;
+    for (auto& column : columns) column += block * kBlock;
     const auto values = values_;
-    const R* const weights = weights_;
     Whole* const starts = starts_.data();
     std::size_t size = size_;
     auto previous = hn::Set(kWhole, static_cast<Whole>(first));
-    auto carry = hn::Zero(kWhole);
-    for (std::size_t j = block * kBlock; j < block * kBlock + n; j += kLanes) {
-      fetch_ahead(j);
-      lanes::unrolled<Registers::kCount>([&](std::size_t k) __attribute__((always_inline)) {
-        const std::size_t at = j + k * kPer;
-        const auto sums = lanes::running_sum(scale.units_of(weights + at));
-        const auto past = scale.past(hn::Add(sums, carry));
-        carry = hn::Add(carry, lanes::last_lane(sums));
-        const auto child = lanes::preceding(previous, past);
-        previous = past;
-        const lanes::Keeper<R> kept(hn::Gt(past, child));
-        hn::StoreU(kept(child), kWhole, starts + size);
-        for (std::size_t d = 0; d < values.size(); ++d)
-          hn::StoreU(kept(hn::Load(kNumber, columns[d] + at)), kNumber, values[d] + size);
-        size += kept.count();
-      });
+    for (std::size_t j = 0; j < n; j += kPer) {
+      const auto past = scale.past(hn::Load(kWhole, cumulative + j));
+      const auto child = lanes::preceding(previous, past);
+      previous = past;
+      const lanes::Keeper<R> kept(hn::Gt(past, child));
+      hn::StoreU(kept(child), kWhole, starts + size);
+      for (std::size_t d = 0; d < values.size(); ++d) {
+        hn::StoreU(kept(hn::Load(kNumber, columns[d] + j)), kNumber, values[d] + size);
+        lanes::prefetch(columns[d] + j + kBlock);
+      }
+      size += kept.count();
     }
     size_ = size;
-  }
-
-  /// Child k continues survivor at_ + (marks among the first k + 1).
-  [[gnu::flatten, gnu::noinline]] void expand(std::size_t count, const ColumnPointers<R, kD>& to_columns) {
-    const auto values = values_;
-    const auto to = to_columns;
-    std::uint8_t* const all_flags = flags_.data();
-    std::size_t at = at_;
-    for (std::size_t out = 0; out < count; out += 64) {
-      std::uint64_t marks = lanes::marks_of(all_flags + out);
-      std::memset(all_flags + out, 0, 64);
-      for (std::size_t v = 0; v < 64 && out + v < count; v += kPer) {
-        const std::uint64_t mark = marks & ((std::uint64_t{1} << kPer) - 1);
-        marks >>= kPer;
-        const lanes::Repeater<R> repeated(mark);
-        const std::size_t from = at + (mark & 1U);  // a mark on the first child moves the load
-        for (std::size_t d = 0; d < to.size(); ++d) hn::Store(repeated(values[d] + from), kNumber, to[d] + out + v);
-        at += static_cast<std::size_t>(std::popcount(mark));
-      }
-    }
-    at_ = at;
   }
 
   /// Marks the first children in [from, end) of the survivors after at_.
@@ -225,8 +232,9 @@ class SurvivorStream {
   std::vector<AlignedVector<R>> storage_;
   ColumnPointers<R, kD> values_;
   AlignedVector<std::uint8_t> flags_;
-  std::size_t size_ = 0;  // survivors in the list
-  std::size_t at_ = 0;    // the one whose children are being written
+  AlignedVector<Whole> cumulative_;  // weights of a block, in units
+  std::size_t size_ = 0;             // survivors in the list
+  std::size_t at_ = 0;               // the one whose children are being written
 };
 
 }  // namespace HWY_NAMESPACE
