@@ -38,17 +38,13 @@ void each(const Columns& a, double gain, std::size_t count, double* out) {
     out[i] = gain * graph::apply<double>(op, {a[0][i], a[1][i], a[2][i], a[3][i]});
 }
 
-/// By operation.
+/// `gain` times an operation, by operation.
 constexpr auto kKernels = []<std::size_t... k>(std::index_sequence<k...>) {
   return std::array<Kernel, sizeof...(k)>{&each<static_cast<Op>(k)>...};
 }
 (std::make_index_sequence<static_cast<std::size_t>(Op::kSelect) + 1>());
 
 }  // namespace
-
-void apply_all(Op op, const Columns& operands, double gain, std::size_t count, double* out) {
-  kKernels[static_cast<std::size_t>(op)](operands, gain, count, out);
-}
 
 MixedArithmetic::MixedArithmetic(const Placement& placement, const Design& design)
     : parts_(placement.parts),
@@ -129,7 +125,7 @@ void MixedArithmetic::compute(Id id, const Vertex& vertex, const Columns& operan
     for (std::size_t i = 0; i < count; ++i) crossed[k][i] = crossing(id, operands[k][i], noise(0, i));
     values[k] = crossed[k].data();
   }
-  apply_all(vertex.op, values, gains_[id], count, out);
+  kKernels[static_cast<std::size_t>(vertex.op)](values, gains_[id], count, out);
 }
 
 void MixedArithmetic::arctans(Id id, const Vertex& vertex, const Columns& operands, const Normals& noise,

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mote/analog/placement.hpp"
+#include "mote/base/tile_draws.hpp"
 #include "mote/graph/evaluate.hpp"
 
 namespace mote::analog {
@@ -19,9 +20,6 @@ struct Normals {
   double operator()(std::size_t k, std::size_t i) const { return numbers == nullptr ? 0 : numbers[k * stride + i]; }
 };
 
-/// `gain` times an operation, on `count` particles.
-void apply_all(graph::Op op, const Columns& operands, double gain, std::size_t count, double* out);
-
 /// Computes the operations of a placement.
 ///
 /// Method-1 divides y by x in double, the smaller by the larger, and hands circuits what a DAC makes of it; what
@@ -34,26 +32,29 @@ class MixedArithmetic {
  public:
   MixedArithmetic(const Placement& placement, const Design& design);
 
+  /// What graph::Replayed asks of an arithmetic: one particle by itself, which has no noise.
+  using Number = double;
+  double number(graph::Id id, double value) const {
+    source(id, &value, 1);
+    return value;
+  }
+  static double value(graph::Id, double number) { return number; }
+  double compute(graph::Id id, const graph::Vertex& vertex, const std::array<double, 4>& operands) {
+    double out = 0;
+    compute(id, vertex, {&operands[0], &operands[1], &operands[2], &operands[3]}, {}, 1, &out);
+    return out;
+  }
+
   /// Makes of an input's values what its part makes of them.
-  void take(graph::Id id, double* values, std::size_t count) const {
+  void source(graph::Id id, double* values, std::size_t count) const {
     if (parts_[id] != Part::kSource) return;
     for (std::size_t i = 0; i < count; ++i) values[i] = gains_[id] * std::clamp(values[i], -clip_, clip_);
   }
-  /// Whether an operation is that of the graph but for a gain: digital, or currents that do not cross.
-  bool is_graphs(graph::Id id) const {
-    return parts_[id] == Part::kDigital || parts_[id] == Part::kMemory ||
-           (parts_[id] == Part::kCurrents && crossings_[id] == 0);
-  }
-  /// By what such an operation's result is multiplied: 1 where it is exact.
-  double gain(graph::Id id) const { return gains_[id]; }
   /// How many normal numbers an operation takes as noise.
   std::size_t normals(graph::Id id) const;
-  /// Another operation, on `count` particles of at most kTile.
+  /// An operation on `count` particles, at most kTile.
   void compute(graph::Id id, const graph::Vertex& vertex, const Columns& operands, const Normals& noise,
                std::size_t count, double* out);
-
-  /// Particles that are computed side by side.
-  static constexpr std::size_t kTile = 64;
 
   /// The angle that the circuit gives for a direction, without noise: its measured transfer.
   double transferred(double angle_rad) const;

@@ -46,48 +46,25 @@ class Multiplied final : public Filter {
 
 /// A chain filter whose estimates are from what its chains chose, which counts alike: no weight is needed but to
 /// accept.
-///
-/// The set of a chain filter between steps is all that it keeps, so it is read from there.
 class ChainStates final : public Filter {
  public:
-  ChainStates(std::unique_ptr<Filter> filter, std::size_t dimensions, std::size_t particles)
-      : filter_(std::move(filter)), set_(dimensions, particles), weights_(particles, 1.0) {}
+  ChainStates(const MixedModel& model, const Plan& plan)
+      : filter_(model, plan.particles, plan.seed, plan.chain, plan.on_collapse), weights_(plan.particles, 1.0) {}
 
-  StepReport predict(Step t) override {
-    const StepReport report = filter_->predict(t);
-    take_set();
-    return report;
-  }
+  StepReport predict(Step t) override { return filter_.predict(t); }
   StepReport update(Step t, Rows<double> rows) override {
-    StepReport report = filter_->update(t, rows);
-    filter_->select(t, report);
-    take_set();
+    StepReport report = filter_.update(t, rows);
+    filter_.select(t, report);
     return report;
   }
   void select(Step, StepReport&) override {}  // chosen with the update
-  WeightedSet weighted() const override { return {&set_, weights_, static_cast<double>(weights_.size())}; }
-  void keep(Archive& archive) override { filter_->keep(archive); }
+  WeightedSet weighted() const override {
+    return {&filter_.kept(), weights_, static_cast<double>(weights_.size())};
+  }
+  void keep(Archive& archive) override { filter_.keep(archive); }
 
  private:
-  void take_set() {
-    std::vector<char> bytes;
-    Archive out = Archive::to([&](const void* data, std::size_t count) {
-      const char* first = static_cast<const char*>(data);
-      bytes.insert(bytes.end(), first, first + count);
-    });
-    filter_->keep(out);
-    std::size_t at = 0;
-    Archive in = Archive::from(
-        [&](void* data, std::size_t count) {
-          std::copy_n(bytes.data() + at, count, static_cast<char*>(data));
-          at += count;
-        },
-        bytes.size());
-    set_.keep(in);
-  }
-
-  std::unique_ptr<Filter> filter_;
-  Particles<double> set_;
+  MetropolisFilter<MixedModel, double, Prior, MixtureWeight> filter_;
   std::vector<double> weights_;
 };
 
@@ -147,9 +124,8 @@ std::unique_ptr<Filter> filter_of(const MixedModel& model, const Plan& plan, Met
     return make_sisr(model, plan.particles, plan.seed, plan.selection, plan.on_collapse);
   if (plan.filter == FilterKind::kAuxiliary)
     return make_auxiliary(model, plan.particles, plan.seed, plan.chain, plan.on_collapse);
-  auto chains = make_imh(model, plan.particles, plan.seed, plan.chain, plan.on_collapse);
-  if (method != Method::kAllButRandom) return chains;
-  return std::make_unique<ChainStates>(std::move(chains), model.states().size(), plan.particles);
+  if (method == Method::kAllButRandom) return std::make_unique<ChainStates>(model, plan);
+  return make_imh(model, plan.particles, plan.seed, plan.chain, plan.on_collapse);
 }
 
 }  // namespace

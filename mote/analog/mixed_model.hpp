@@ -1,164 +1,107 @@
 #pragma once
 /// A model whose likelihood, or whose all, is computed by analog parts: what a filter runs in mixed mode.
 
-#include <memory>
-#include <span>
-
-#include "mote/analog/tape.hpp"
+#include "mote/analog/arithmetic.hpp"
 #include "mote/filter/chain.hpp"
 #include "mote/filter/weigh.hpp"
-#include "mote/graph/drawn.hpp"
+#include "mote/graph/replay.hpp"
 
 namespace mote::analog {
 
-/// Where a particle's inputs are read; what a function does not read may be left out.
-struct TapeInputs {
-  const double* state = nullptr;     ///< kState
-  const double* before = nullptr;    ///< kBefore
-  const double* row = nullptr;       ///< kColumn
-  const double* schedule = nullptr;  ///< kSchedule
-  const double* draws = nullptr;     ///< the four roles of draws, by number
-
-  void operator()(const graph::Vertex& input, double* value) const {
-    switch (input.role) {
-      case graph::Role::kState:
-        *value = state[input.index];
-        break;
-      case graph::Role::kBefore:
-        *value = before[input.index];
-        break;
-      case graph::Role::kColumn:
-        *value = row[input.index];
-        break;
-      case graph::Role::kSchedule:
-        *value = schedule[input.index];
-        break;
-      default:
-        *value = draws[input.index];
-    }
-  }
-};
-
 /// A recorded model in the arithmetic of a design. The noise of an evaluation has an address: seed, step, particle.
 ///
-/// Moves take their noise from their own draws; weighing one particle by itself, without saying which, has no noise. A
-/// row with a value missing weighs nothing: a recording is that of whole rows.
-///
-/// shape   double only; copies share the arithmetic: one thread at a time
-/// cost    O(vertices) a call
-class MixedModel {
- public:
-  template <class S>
-  using State = SmallVector<S>;
+/// Moves take their noise from their own draws; weighing one particle by itself, without saying which, has no noise.
+class MixedModel : public graph::Replayed<MixedArithmetic> {
+  using One = graph::Replayed<MixedArithmetic>;
 
+ public:
   /// `seed` is that of the noise.
   MixedModel(const Placement& placement, const Design& design, std::uint64_t seed)
-      : shared_(std::make_shared<Shared>(placement, design)), seed_(seed) {}
-
-  std::vector<Quantity> states() const { return shared_->recorded.states; }
-  std::vector<Column> columns() const { return shared_->recorded.columns; }
-
-  template <class S, class D>
-  State<S> initial(D& draw) const {
-    const auto draws = graph::drawn<double>(shared_->recorded.prior_draws, draw);
-    return shared_->state_by(shared_->initial, {.draws = draws.data()});
-  }
-  template <class S, class D>
-  State<S> next(Step t, const State<S>& before, D& draw) const {
-    const auto draws = graph::drawn<double>(shared_->recorded.draws, draw);
-    return shared_->state_by(shared_->next,
-                             {.before = before.data(), .schedule = shared_->schedule_at(t), .draws = draws.data()});
-  }
-  template <class S>
-  S log_likelihood(Step t, const State<S>& x, const Row<S>& y) const {
-    if (!is_whole(y)) return 0;
-    const TapeInputs inputs{.state = x.data(), .row = y.values.data(), .schedule = shared_->schedule_at(t)};
-    shared_->weigh_one.run(shared_->arithmetic, inputs, nullptr, 1);
-    return *shared_->weigh_one.output(0);
+      : One(placement.recorded, std::make_shared<MixedArithmetic>(placement, design)),
+        tiles_(std::make_shared<Tiles>(placement.recorded)),
+        seed_(seed) {
+    tiles_->weigh.for_each([&](graph::Id id) { normals_ += arithmetic().normals(id); });
   }
 
+  /// Moves particles [first, last).
+  void move_all(Step t, const DrawPlace& from, Particles<double>& x, std::size_t first, std::size_t last) const {
+    const auto place = [&](std::size_t drawn) { return first + (drawn - from.first); };
+    for_each_tile(from.draws, from.purpose, recorded().draws, from.first, from.first + (last - first),
+                  [&](std::size_t begin, std::size_t end, const double* numbers) {
+                    move_tile(t, {place(begin), place(end)}, numbers, x);
+                  });
+  }
   /// Adds log p(y | x_i) to the log weights of particles [first, N).
   void weigh_all(Step t, Rows<double> y, const Particles<double>& x, std::size_t first,
                  std::span<double> log_weights) const {
-    const Draws draws{seed_, static_cast<std::uint32_t>(t)};
-    const std::size_t normals = shared_->weigh.normals() * y.size();
-    std::vector<double> noise(normals * kTile);
-    draws.for_each(kNoise, first / kBlock * kBlock, x.size(), [&](std::size_t i, Draw<double>& draw) {
-      for (std::size_t k = 0; k < normals; ++k) noise[k * kTile + i % kTile] = draw.normal();
-      const bool full = i % kTile == kTile - 1 || i + 1 == x.size();
-      if (full && i >= first) weigh_tile(t, y, x, {i / kTile * kTile, i + 1}, noise, first, log_weights);
-    });
+    for_each_tile({seed_, static_cast<std::uint32_t>(t)}, kNoise, std::vector<bool>(normals_ * y.size(), true), first,
+                  x.size(), [&](std::size_t begin, std::size_t end, const double* noise) {
+                    weigh_tile(t, y, {begin, end}, noise, x, log_weights);
+                  });
   }
 
  private:
-  static constexpr std::size_t kTile = MixedArithmetic::kTile;
-
-  struct Shared {
-    Shared(const Placement& placement, const Design& design)
-        : recorded(placement.recorded),
-          arithmetic(placement, design),
-          initial(placement, arithmetic, recorded.initial),
-          next(placement, arithmetic, recorded.next),
-          weigh_one(placement, arithmetic, {recorded.log_likelihood}),
-          weigh(placement, arithmetic, {recorded.log_likelihood}) {
-      for (const graph::Vertex& v : recorded.graph.vertices())
-        scheduled = scheduled || (v.op == graph::Op::kInput && v.role == graph::Role::kSchedule);
-    }
-    const double* schedule_at(Step t) {
-      if (scheduled && t != step) {
-        schedule = recorded.schedule(t);
-        step = t;
-      }
-      return schedule.data();
-    }
-    SmallVector<double> state_by(Tape<1>& tape, const TapeInputs& inputs) {
-      tape.run(arithmetic, inputs, nullptr, 1);
-      SmallVector<double> x(recorded.states.size());
-      for (std::size_t d = 0; d < x.size(); ++d) x[d] = *tape.output(d);
-      return x;
-    }
-
-    graph::Recorded recorded;
-    MixedArithmetic arithmetic;
-    Tape<1> initial, next, weigh_one;
-    Tape<kTile> weigh;
-    bool scheduled = false;  ///< whether anything follows t alone
-    std::vector<double> schedule;
-    Step step = -1;
+  struct Tiles {
+    explicit Tiles(const graph::Recorded& recorded)
+        : next(recorded.graph, recorded.next), weigh(recorded.graph, {recorded.log_likelihood}) {}
+    graph::Tape<double, kTile> next, weigh;
   };
 
-  template <class S>
-  static bool is_whole(const Row<S>& y) {
-    for (std::size_t j = 0; j < y.values.size(); ++j)
-      if (!y.seen(j)) return false;
-    return true;
+  /// The arithmetic on columns of a tile, with what its particles differ in.
+  struct Tile {
+    MixedArithmetic& arithmetic;
+    const Particles<double>& x;  ///< kState or kBefore, whichever the function reads
+    Stretch stretch;
+    graph::InputValues common;
+    const double* draws = nullptr;  ///< number k of particle i at [k kTile + i]
+    const double* noise = nullptr;  ///< likewise; what comes next
+
+    void take(graph::Id id, const graph::Vertex& v, double* out, std::size_t count) const {
+      using graph::Role;
+      if (v.op == graph::Op::kConstant) {
+        std::fill_n(out, count, v.value);
+      } else if (v.role == Role::kColumn || v.role == Role::kSchedule) {
+        std::fill_n(out, count, common(v));
+      } else if (v.role == Role::kState || v.role == Role::kBefore) {
+        std::copy_n(x.component(v.index).begin() + static_cast<std::ptrdiff_t>(stretch.first), count, out);
+      } else {
+        std::copy_n(draws + v.index * kTile, count, out);
+        arithmetic.source(id, out, count);
+      }
+    }
+    void compute(graph::Id id, const graph::Vertex& v, const Columns& operands, std::size_t count, double* out) {
+      arithmetic.compute(id, v, operands, {noise, kTile}, count, out);
+      if (noise != nullptr) noise += arithmetic.normals(id) * kTile;
+    }
+  };
+
+  void move_tile(Step t, Stretch stretch, const double* numbers, Particles<double>& x) const {
+    graph::Tape<double, kTile>& next = tiles_->next;
+    next.run(Tile{arithmetic(), x, stretch, {.schedule = schedule(t)}, numbers}, stretch.size());
+    for (std::size_t d = 0; d < x.dimensions(); ++d)
+      std::copy_n(next.output(d), stretch.size(), x.component(d).begin() + static_cast<std::ptrdiff_t>(stretch.first));
   }
 
-  /// Weighs the particles of a tile, from `first` on.
-  void weigh_tile(Step t, Rows<double> y, const Particles<double>& x, Stretch tile, const std::vector<double>& noise,
-                  std::size_t first, std::span<double> log_weights) const {
+  void weigh_tile(Step t, Rows<double> y, Stretch stretch, const double* noise, const Particles<double>& x,
+                  std::span<double> log_weights) const {
     std::array<double, kTile> sums{};
-    const double* schedule = shared_->schedule_at(t);
-    Tape<kTile>& weigh = shared_->weigh;
+    graph::Tape<double, kTile>& weigh = tiles_->weigh;
     for (std::size_t r = 0; r < y.size(); ++r) {
       if (!is_whole(y[r])) continue;
-      const auto fill = [&](const graph::Vertex& input, double* column) {
-        if (input.role == graph::Role::kState) {
-          std::copy_n(x.component(input.index).begin() + static_cast<std::ptrdiff_t>(tile.first), tile.size(), column);
-        } else {
-          const TapeInputs common{.row = y[r].values.data(), .schedule = schedule};
-          common(input, column);
-          std::fill_n(column + 1, tile.size() - 1, *column);
-        }
-      };
-      weigh.run(shared_->arithmetic, fill, noise.data() + r * weigh.normals() * kTile, tile.size());
-      for (std::size_t i = 0; i < tile.size(); ++i) sums[i] += weigh.output(0)[i];
+      weigh.run(Tile{arithmetic(),
+                     x,
+                     stretch,
+                     {.row = y[r].values.data(), .schedule = schedule(t)},
+                     nullptr,
+                     noise + r * normals_ * kTile},
+                stretch.size());
+      for (std::size_t i = 0; i < stretch.size(); ++i) sums[i] += weigh.output(0)[i];
     }
-    for (std::size_t i = std::max(first, tile.first); i < tile.last; ++i)
-      log_weights[i] += usable(sums[i - tile.first]);
+    for (std::size_t i = 0; i < stretch.size(); ++i) log_weights[stretch.first + i] += usable(sums[i]);
   }
 
-  std::shared_ptr<Shared> shared_;
+  std::shared_ptr<Tiles> tiles_;
+  std::size_t normals_ = 0;  ///< that weighing a particle by one row takes as noise
   std::uint64_t seed_;
 };
 

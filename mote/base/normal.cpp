@@ -1,7 +1,11 @@
 #include "mote/base/normal.hpp"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+
+#include "mote/base/normals.hpp"
 
 namespace mote {
 namespace {
@@ -55,24 +59,65 @@ double centre(double q) {
   return q * horner(kCentreA, r) / horner(kCentreB, r);
 }
 
+constexpr double kFar = 5.0;
+double near_tail(double r) { return horner(kTailC, r - 1.6) / horner(kTailD, r - 1.6); }
+double far_tail(double r) { return horner(kFarE, r - kFar) / horner(kFarF, r - kFar); }
+
 /// The magnitude of the quantile of a tail probability below 0.075.
 double tail(double p) {
   const double r = std::sqrt(-std::log(p));
-  if (r <= 5.0) return horner(kTailC, r - 1.6) / horner(kTailD, r - 1.6);
-  return horner(kFarE, r - 5.0) / horner(kFarF, r - 5.0);
+  return r <= kFar ? near_tail(r) : far_tail(r);
 }
 
+constexpr double kTail = 0.075;  // |p - 1/2| = 0.425
+
 /// |z| for a tail probability u in (0, 1/2].
-double magnitude(double u) { return u >= 0.075 ? -centre(u - 0.5) : tail(u); }
+double magnitude(double u) { return u >= kTail ? -centre(u - 0.5) : tail(u); }
+
+constexpr std::uint64_t kSignBit = 1ULL << 63U;
+
+/// The tail probability in 64 random bits.
+double tail_probability(std::uint64_t bits) {
+  return (static_cast<double>(static_cast<std::int64_t>(bits & ~kSignBit)) + 0.5) * 0x1p-64;
+}
+
+/// normal_from_bits() of at most kMost words. Steps are loops of their own, which compilers turn into vectors; all but
+/// the logarithms of the tails, of which there are few.
+constexpr std::size_t kMost = 512;
+void normals_of(const std::uint64_t* bits, std::size_t count, double* z) {
+  std::array<double, kMost> u;
+  std::array<std::uint32_t, kMost> tails;
+  std::array<double, kMost> r;
+  std::array<double, kMost> near;
+  std::size_t few = 0;
+  for (std::size_t i = 0; i < count; ++i) u[i] = tail_probability(bits[i]);
+  for (std::size_t i = 0; i < count; ++i) z[i] = -centre(u[i] - 0.5);
+  for (std::size_t i = 0; i < count; ++i) {
+    tails[few] = static_cast<std::uint32_t>(i);
+    few += u[i] < kTail ? 1 : 0;
+  }
+  for (std::size_t k = 0; k < few; ++k) r[k] = std::log(u[tails[k]]);
+  for (std::size_t k = 0; k < few; ++k) r[k] = std::sqrt(-r[k]);
+  for (std::size_t k = 0; k < few; ++k) near[k] = near_tail(r[k]);
+  for (std::size_t k = 0; k < few; ++k) z[tails[k]] = near[k];
+  for (std::size_t k = 0; k < few; ++k)
+    if (r[k] > kFar) z[tails[k]] = far_tail(r[k]);
+  for (std::size_t i = 0; i < count; ++i)
+    z[i] = std::bit_cast<double>(std::bit_cast<std::uint64_t>(z[i]) ^ (bits[i] & kSignBit));
+}
 
 }  // namespace
 
 double standard_normal_quantile(double p) { return p <= 0.5 ? -magnitude(p) : magnitude(1.0 - p); }
 
 double normal_from_bits(std::uint64_t bits) {
-  constexpr std::uint64_t kSign = 1ULL << 63U;
-  const double z = magnitude((static_cast<double>(bits & ~kSign) + 0.5) * 0x1p-64);
-  return (bits & kSign) != 0 ? -z : z;
+  const double z = magnitude(tail_probability(bits));
+  return (bits & kSignBit) != 0 ? -z : z;
+}
+
+void normals_from_bits(std::span<const std::uint64_t> bits, std::span<double> normals) {
+  for (std::size_t first = 0; first < bits.size(); first += kMost)
+    normals_of(bits.data() + first, std::min(kMost, bits.size() - first), normals.data() + first);
 }
 
 float normal_from_bits(std::uint32_t bits, std::uint64_t more) {

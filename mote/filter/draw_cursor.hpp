@@ -9,6 +9,13 @@
 
 namespace mote {
 
+/// Where the draws of particles are, from one on: for who takes those of many at once.
+struct DrawPlace {
+  Draws draws;
+  Purpose purpose;
+  std::size_t first;  ///< the particle whose draws come next
+};
+
 /// A place in the draws of one purpose and step: those of a particle, then of the next, across blocks.
 ///
 /// A block's generators serve its particles in order, so a stretch that begins inside a block passes over the words of
@@ -36,6 +43,11 @@ class DrawCursor {
   Draw<R> next() {
     if (at_ == kBlock) enter(number_ + 1);
     return block_->particle(at_++);
+  }
+  /// Leaves the draws from here on to the caller; the cursor has none until it goes somewhere.
+  DrawPlace hand_over() {
+    block_.reset();
+    return {draws_, purpose_, number_ * kBlock + at_};
   }
 
  private:

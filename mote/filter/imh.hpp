@@ -132,7 +132,12 @@ class MetropolisFilter final : public Filter, public Elastic {
 
   void keep(Archive& archive) override { archive(set_); }
 
+  /// The unweighted set S_t, once selected.
+  const Particles<R>& kept() const { return set_; }
+
  private:
+  /// Whether proposals are parents that are moved where they are.
+  static constexpr bool kMovesAll = std::is_same_v<G, Prior> && MovesAll<M, R>;
   static constexpr double kBurnInDistance = 0.01;  // total variation that `burn_in = auto` leaves
 
   Draws draws(Step t) const { return {seed_, static_cast<std::uint32_t>(t)}; }
@@ -228,12 +233,17 @@ class MetropolisFilter final : public Filter, public Elastic {
     for (std::size_t j = stretch.first; j < stretch.last; ++j) {
       const auto [k, log_parent] = parent_of(j, permutation, at);
       set_.read(k, before);
-      auto draw = at.moves.next();
-      proposals_.write(j, proposal_.template propose<R>(model_, t, before, y, draw));
+      if constexpr (kMovesAll) {
+        proposals_.write(j, before);
+      } else {
+        auto draw = at.moves.next();
+        proposals_.write(j, proposal_.template propose<R>(model_, t, before, y, draw));
+      }
       if constexpr (!std::is_same_v<G, Prior>) parents_[j] = static_cast<Index>(k);
       log_weights_[j] = -log_parent;
       log_uniforms_[j] = std::log(static_cast<double>(at.accepts.next().uniform()));
     }
+    if constexpr (kMovesAll) move(model_, t, proposals_, at.moves, stretch.first, stretch.last);
   }
 
   void weigh_stretch(Step t, Rows<R> y, Stretch stretch) {

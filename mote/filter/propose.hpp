@@ -18,9 +18,18 @@ void draw_prior(const M& model, Particles<R>& x, const Draws& draws, Purpose pur
   });
 }
 
+/// A model that moves particles [first, last) in one call, side by side if it likes: to the states that next() gives one
+/// by one.
+template <class M, class R>
+concept MovesAll = Model<M> &&
+    requires(const M& m, Step t, const DrawPlace& from, Particles<R>& x, std::size_t first, std::size_t last) {
+  m.move_all(t, from, x, first, last);
+};
+
 /// Moves particles [first, last) by the model: x_i ~ p(. | x_i), with draws from where `moves` is.
 template <Model M, class R>
 void move(const M& model, Step t, Particles<R>& x, DrawCursor<R>& moves, std::size_t first, std::size_t last) {
+  if constexpr (MovesAll<M, R>) return model.move_all(t, moves.hand_over(), x, first, last);
   auto before = blank_state<R>(model);
   for (std::size_t i = first; i < last; ++i) {
     auto draw = moves.next();
@@ -51,6 +60,7 @@ double log_importance(const M& model, const G& proposal, Step t, const StateOf<M
 template <Model M, class R, class G>
 void propose(const M& model, const G& proposal, Step t, Rows<R> y, Particles<R>& x, std::span<double> log_weights,
              DrawCursor<R>& moves, std::size_t first, std::size_t last) {
+  if constexpr (MovesAll<M, R> && std::is_same_v<G, Prior>) return move(model, t, x, moves, first, last);
   auto before = blank_state<R>(model);
   for (std::size_t i = first; i < last; ++i) {
     auto draw = moves.next();

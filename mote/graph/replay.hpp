@@ -8,6 +8,7 @@
 #include "mote/graph/fixed.hpp"
 #include "mote/graph/interval.hpp"
 #include "mote/graph/record.hpp"
+#include "mote/graph/tape.hpp"
 
 namespace mote::graph {
 
@@ -47,6 +48,30 @@ class WatchedArithmetic {
   std::vector<Interval> seen_;
 };
 
+/// Where the inputs of a recorded function are read; what it does not read may be left out.
+struct InputValues {
+  const double* state = nullptr;     ///< kState
+  const double* before = nullptr;    ///< kBefore
+  const double* row = nullptr;       ///< kColumn
+  const double* schedule = nullptr;  ///< kSchedule
+  const double* draws = nullptr;     ///< the four roles of draws, by number
+
+  double operator()(const Vertex& input) const {
+    switch (input.role) {
+      case Role::kState:
+        return state[input.index];
+      case Role::kBefore:
+        return before[input.index];
+      case Role::kColumn:
+        return row[input.index];
+      case Role::kSchedule:
+        return schedule[input.index];
+      default:
+        return draws[input.index];
+    }
+  }
+};
+
 /// A recorded model whose every operation is done by an arithmetic A.
 ///
 ///   A::Number number(id, double)                an input or constant, as vertex id has it
@@ -72,71 +97,71 @@ class Replayed {
   template <class S, class D>
   State<S> initial(D& draw) const {
     const auto numbers = drawn<double>(shared_->recorded.prior_draws, draw);
-    return shared_->run(shared_->initial, shared_->recorded.initial, [&](const Vertex& v) { return numbers[v.index]; });
+    return shared_->run(shared_->initial, shared_->recorded.initial, {.draws = numbers.data()});
   }
   template <class S, class D>
   State<S> next(Step t, const State<S>& before, D& draw) const {
     const auto numbers = drawn<double>(shared_->recorded.draws, draw);
-    shared_->go_to(t);
-    return shared_->run(shared_->next, shared_->recorded.next, [&](const Vertex& v) {
-      return v.role == Role::kBefore     ? before[v.index]
-             : v.role == Role::kSchedule ? shared_->schedule[v.index]
-                                         : numbers[v.index];
-    });
+    return shared_->run(shared_->next, shared_->recorded.next,
+                        {.before = before.data(), .schedule = schedule(t), .draws = numbers.data()});
   }
   template <class S>
   S log_likelihood(Step t, const State<S>& x, const Row<S>& y) const {
+    if (!is_whole(y)) return 0;
+    return shared_->run(shared_->weigh, {shared_->recorded.log_likelihood},
+                        {.state = x.data(), .row = y.values.data(), .schedule = schedule(t)})[0];
+  }
+
+ protected:
+  const Recorded& recorded() const { return shared_->recorded; }
+  A& arithmetic() const { return *shared_->arithmetic; }
+  /// Numbers that the model computes from t alone, by the index of kSchedule.
+  const double* schedule(Step t) const {
+    if (t != shared_->step) shared_->schedule = shared_->recorded.schedule(t);
+    shared_->step = t;
+    return shared_->schedule.data();
+  }
+  template <class S>
+  static bool is_whole(const Row<S>& y) {
     for (std::size_t j = 0; j < y.values.size(); ++j)
-      if (!y.seen(j)) return 0;
-    shared_->go_to(t);
-    return shared_->run(shared_->weigh, {shared_->recorded.log_likelihood}, [&](const Vertex& v) {
-      return v.role == Role::kState ? x[v.index] : v.role == Role::kSchedule ? shared_->schedule[v.index] : y[v.index];
-    })[0];
+      if (!y.seen(j)) return false;
+    return true;
   }
 
  private:
+  using OneByOne = Tape<typename A::Number>;
+
   struct Shared {
     Shared(const Recorded& r, std::shared_ptr<A> a)
         : recorded(r),
           arithmetic(std::move(a)),
-          values(r.graph.size()),
-          initial(needed(r.initial)),
-          next(needed(r.next)),
-          weigh(needed({r.log_likelihood})) {}
+          initial(r.graph, r.initial),
+          next(r.graph, r.next),
+          weigh(r.graph, {r.log_likelihood}) {}
 
-    std::vector<Id> needed(const std::vector<Id>& outputs) const {
-      const std::vector<bool> used = reached(recorded.graph, outputs);
-      std::vector<Id> all;
-      for (Id id = 0; id < used.size(); ++id)
-        if (used[id]) all.push_back(id);
-      return all;
-    }
-    void go_to(Step t) {
-      if (t == step) return;
-      schedule = recorded.schedule(t);
-      step = t;
-    }
-    template <class Input>
-    State<double> run(const std::vector<Id>& order, const std::vector<Id>& outputs, const Input& input) {
-      std::array<typename A::Number, 4> operands{};
-      for (const Id id : order) {
-        const Vertex& v = recorded.graph[id];
-        if (arity(v.op) == 0) {
-          values[id] = arithmetic->number(id, v.op == Op::kConstant ? v.value : input(v));
-        } else {
-          for (std::size_t k = 0; k < arity(v.op); ++k) operands[k] = values[v.args[k]];
-          values[id] = arithmetic->compute(id, v, operands);
-        }
+    /// The arithmetic on columns of one.
+    struct One {
+      A& a;
+      const InputValues& inputs;
+
+      void take(Id id, const Vertex& v, typename A::Number* out, std::size_t) const {
+        *out = a.number(id, v.op == Op::kConstant ? v.value : inputs(v));
       }
+      void compute(Id id, const Vertex& v, const typename OneByOne::Columns& operands, std::size_t,
+                   typename A::Number* out) const {
+        *out = a.compute(id, v, {*operands[0], *operands[1], *operands[2], *operands[3]});
+      }
+    };
+    State<double> run(OneByOne& tape, const std::vector<Id>& outputs, const InputValues& inputs) {
+      tape.run(One{*arithmetic, inputs});
       State<double> out;
-      for (const Id id : outputs) out.push_back(arithmetic->value(id, values[id]));
+      for (std::size_t k = 0; k < outputs.size(); ++k) out.push_back(arithmetic->value(outputs[k], *tape.output(k)));
       return out;
     }
 
     Recorded recorded;
     std::shared_ptr<A> arithmetic;
-    std::vector<typename A::Number> values;
-    std::vector<Id> initial, next, weigh;  ///< what each function computes, in order
+    OneByOne initial, next, weigh;
     std::vector<double> schedule;
     Step step = -1;
   };
