@@ -122,7 +122,7 @@ void MixedArithmetic::compute(Id id, const Vertex& vertex, const Columns& operan
   Columns values = operands;
   for (std::size_t k = 0; k < graph::arity(vertex.op); ++k) {
     if ((crossings_[id] >> k & 1U) == 0) continue;
-    for (std::size_t i = 0; i < count; ++i) crossed[k][i] = crossing(id, operands[k][i], noise(0, i));
+    for (std::size_t i = 0; i < count; ++i) crossed[k][i] = crossing(id, operands[k][i], normal_for(angle_dac_, noise, 0, i));
     values[k] = crossed[k].data();
   }
   kKernels[static_cast<std::size_t>(vertex.op)](values, gains_[id], count, out);
@@ -154,14 +154,17 @@ void MixedArithmetic::gaussians(Id id, const double* x, const Normals& noise, st
 }
 
 double MixedArithmetic::transferred(double angle_rad) const {
-  return in_the_plane(std::sin(angle_rad), std::cos(angle_rad), [&](double q) { return arctan_->noisy_at(q, 0); });
+  return in_the_plane(std::sin(angle_rad), std::cos(angle_rad), [&](double q) {
+    return arctan_->noisy_at(method_ == Method::kWeights ? quotient_dac_(q, 0) : q, 0);
+  });
 }
 
 double MixedArithmetic::crossing(Id id, double value, double normal) {
   if (value == last_crossing_ && id == last_crossed_) return last_crossed_value_;
   double crossed = against_arctan_[id] ? numbers::wrap(value) : value;
-  if (against_arctan_[id] && calibration_ == Calibration::kTransfer) crossed = transferred(crossed);
-  if (method_ == Method::kWeights) crossed = angle_dac_(crossed, normal);
+  const bool known = against_arctan_[id] && calibration_ == Calibration::kTransfer;
+  if (known) crossed = transferred(crossed);
+  if (method_ == Method::kWeights) crossed = known ? angle_dac_.calibrated(crossed, normal) : angle_dac_(crossed, normal);
   if (method_ == Method::kWeights && angle_dac_.noisy()) return crossed;
   last_crossing_ = value;
   last_crossed_ = id;

@@ -26,10 +26,26 @@ Converter::Converter(const ConverterSheet& sheet, Direction direction, double lo
   per_lsb_ = 1 / lsb_;
   const double ripple = std::min(sheet.dnl_lsb / 2, sheet.inl_lsb);  // two neighbours differ by twice that at most
   const double bow = sheet.inl_lsb - ripple;
+  reach_ = static_cast<int>(std::ceil(sheet.inl_lsb)) + 1;
   const Draws draws{seed, 0, number};
   draws.for_each(kConverterErrors, 0, errors_.size(), [&](std::size_t code, auto& draw) {
     errors_[code] = bow * std::sin(kPi * static_cast<double>(code) / last) + ripple * (2 * draw.uniform() - 1);
   });
+}
+
+double Converter::calibrated(double x, double normal) const {
+  if (errors_.empty() || std::isnan(x)) return x;
+  const double place = (x - low_) * per_lsb_ + noise_lsb_ * normal;
+  const auto middle = static_cast<int>(nearest(place));
+  double output = 0;
+  double distance = kInfinity;
+  for (int code = std::max(0, middle - reach_); code <= middle + reach_ && code < static_cast<int>(errors_.size()); ++code) {
+    const double of_code = code + errors_[static_cast<std::size_t>(code)];
+    if (std::abs(of_code - place) >= distance) continue;
+    distance = std::abs(of_code - place);
+    output = of_code;
+  }
+  return low_ + lsb_ * output;
 }
 
 }  // namespace mote::analog

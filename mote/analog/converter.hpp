@@ -70,6 +70,10 @@ class Converter {
     const double error = errors_[static_cast<std::size_t>(code)];
     return low_ + lsb_ * (direction_ == Direction::kToAnalog ? code + error : nearest(place - error));
   }
+  /// The same of a converter to analog whose errors are known by measurement: the output that is nearest to x.
+  ///
+  /// cost    some look-ups more
+  double calibrated(double x, double normal) const;
   bool noisy() const { return noise_lsb_ > 0 && !errors_.empty(); }
 
  private:
@@ -80,6 +84,7 @@ class Converter {
   Direction direction_;
   double low_, lsb_ = 0, per_lsb_ = 0, noise_lsb_;
   std::vector<double> errors_;  ///< by code, in LSB; empty: none is there
+  int reach_ = 0;               ///< how many codes away an output may be that is nearer than the code's own
 };
 
 }  // namespace mote::analog

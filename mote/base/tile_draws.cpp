@@ -7,7 +7,7 @@
 namespace mote {
 
 TileDraws::TileDraws(const Address& address, const std::vector<bool>& normal)
-    : normal_(normal), words_(normal.size() * kTile), numbers_(normal.size() * kTile) {
+    : normal_(normal), words_(normal.size() * kTile), numbers_(std::max<std::size_t>(1, normal.size()) * kTile) {
   for (std::uint32_t lane = 0; lane < 8; ++lane) {
     const Xoshiro generator = keyed_generator(address, lane);
     for (std::size_t k = 0; k < generator.s.size(); ++k) s_[k][lane] = generator.s[k];

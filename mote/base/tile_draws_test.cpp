@@ -28,6 +28,9 @@ TEST(TileDraws, AreThoseOfParticlesOneByOne) {
                   });
     EXPECT_EQ(at, last);
   }
+  std::size_t visited = 0;
+  for_each_tile(draws, Purpose::kTest, {}, 40, 70, [&](std::size_t begin, std::size_t end, const double*) { visited += end - begin; });
+  EXPECT_EQ(visited, 30U);
 }
 
 // claim    the same bits at every tail, however far
