@@ -122,7 +122,8 @@ void MixedArithmetic::compute(Id id, const Vertex& vertex, const Columns& operan
   Columns values = operands;
   for (std::size_t k = 0; k < graph::arity(vertex.op); ++k) {
     if ((crossings_[id] >> k & 1U) == 0) continue;
-    for (std::size_t i = 0; i < count; ++i) crossed[k][i] = crossing(id, operands[k][i], normal_for(angle_dac_, noise, 0, i));
+    for (std::size_t i = 0; i < count; ++i)
+      crossed[k][i] = crossing(id, operands[k][i], normal_for(angle_dac_, noise, 0, i));
     values[k] = crossed[k].data();
   }
   kKernels[static_cast<std::size_t>(vertex.op)](values, gains_[id], count, out);
@@ -164,7 +165,8 @@ double MixedArithmetic::crossing(Id id, double value, double normal) {
   double crossed = against_arctan_[id] ? numbers::wrap(value) : value;
   const bool known = against_arctan_[id] && calibration_ == Calibration::kTransfer;
   if (known) crossed = transferred(crossed);
-  if (method_ == Method::kWeights) crossed = known ? angle_dac_.calibrated(crossed, normal) : angle_dac_(crossed, normal);
+  if (method_ == Method::kWeights)
+    crossed = known ? angle_dac_.calibrated(crossed, normal) : angle_dac_(crossed, normal);
   if (method_ == Method::kWeights && angle_dac_.noisy()) return crossed;
   last_crossing_ = value;
   last_crossed_ = id;

@@ -39,7 +39,8 @@ double Converter::calibrated(double x, double normal) const {
   const auto middle = static_cast<int>(nearest(place));
   double output = 0;
   double distance = kInfinity;
-  for (int code = std::max(0, middle - reach_); code <= middle + reach_ && code < static_cast<int>(errors_.size()); ++code) {
+  for (int code = std::max(0, middle - reach_); code <= middle + reach_ && code < static_cast<int>(errors_.size());
+       ++code) {
     const double of_code = code + errors_[static_cast<std::size_t>(code)];
     if (std::abs(of_code - place) >= distance) continue;
     distance = std::abs(of_code - place);

@@ -58,9 +58,7 @@ class ChainStates final : public Filter {
     return report;
   }
   void select(Step, StepReport&) override {}  // chosen with the update
-  WeightedSet weighted() const override {
-    return {&filter_.kept(), weights_, static_cast<double>(weights_.size())};
-  }
+  WeightedSet weighted() const override { return {&filter_.kept(), weights_, static_cast<double>(weights_.size())}; }
   void keep(Archive& archive) override { filter_.keep(archive); }
 
  private:

@@ -29,7 +29,8 @@ TEST(TileDraws, AreThoseOfParticlesOneByOne) {
     EXPECT_EQ(at, last);
   }
   std::size_t visited = 0;
-  for_each_tile(draws, Purpose::kTest, {}, 40, 70, [&](std::size_t begin, std::size_t end, const double*) { visited += end - begin; });
+  for_each_tile(draws, Purpose::kTest, {}, 40, 70,
+                [&](std::size_t begin, std::size_t end, const double*) { visited += end - begin; });
   EXPECT_EQ(visited, 30U);
 }
 
@@ -37,7 +38,8 @@ TEST(TileDraws, AreThoseOfParticlesOneByOne) {
 TEST(NormalsFromBits, AreThoseOfEachWord) {
   std::vector<std::uint64_t> bits{0, 1, ~0ULL, 1ULL << 63U, (1ULL << 63U) - 1};
   for (unsigned k = 1; k < 64; ++k)
-    for (const std::uint64_t more : {0ULL, 1ULL, 0x123456789ULL}) bits.push_back((1ULL << k) + more), bits.push_back(~bits.back());
+    for (const std::uint64_t more : {0ULL, 1ULL, 0x123456789ULL})
+      bits.push_back((1ULL << k) + more), bits.push_back(~bits.back());
   for (std::uint64_t k = 0; k < 20000; ++k) bits.push_back(mixed(k));
   std::vector<double> normals(bits.size());
   normals_from_bits(bits, normals);

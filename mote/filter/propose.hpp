@@ -18,8 +18,8 @@ void draw_prior(const M& model, Particles<R>& x, const Draws& draws, Purpose pur
   });
 }
 
-/// A model that moves particles [first, last) in one call, side by side if it likes: to the states that next() gives one
-/// by one.
+/// A model that moves particles [first, last) in one call, side by side if it likes: to the states that next() gives
+/// one by one.
 template <class M, class R>
 concept MovesAll = Model<M> &&
     requires(const M& m, Step t, const DrawPlace& from, Particles<R>& x, std::size_t first, std::size_t last) {

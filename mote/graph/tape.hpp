@@ -8,8 +8,8 @@
 
 namespace mote::graph {
 
-/// Some vertices of a graph and all that they depend on, for up to kWidth particles side by side: what a vertex asks for
-/// is looked up once for all of them. An arithmetic computes:
+/// Some vertices of a graph and all that they depend on, for up to kWidth particles side by side: what a vertex asks
+/// for is looked up once for all of them. An arithmetic computes:
 ///
 ///   take(id, vertex, column, count)              an input or a constant, of `count` particles
 ///   compute(id, vertex, operands, count, out)    an operation on columns

@@ -21,9 +21,7 @@ bool needs_truth(Kind kind) {
 
 /// Whether a word stands for the states x and y together: their place, or their direction from the origin.
 bool is_plane(const std::string& state) { return state == "position" || state == "bearing"; }
-bool takes_plane(Kind kind) {
-  return kind == Kind::kRmse || kind == Kind::kReferenceError || kind == Kind::kRecovered;
-}
+bool takes_plane(Kind kind) { return kind == Kind::kRmse || kind == Kind::kReferenceError || kind == Kind::kRecovered; }
 
 /// Stands for the posterior where no solver is known, its seed far from those of any repeat.
 constexpr std::string_view kLargeRun = "sisr -n 200000";
@@ -175,7 +173,8 @@ const std::vector<std::vector<double>>& Filters::posterior_means(std::uint64_t o
   const auto [found, fresh] = posterior_means_.try_emplace(offset);
   if (!fresh) return found->second;
   if (solver_)
-    if (auto solution = solver_->solve(runs_.scene(offset).recording)) return found->second = std::move(solution->means);
+    if (auto solution = solver_->solve(runs_.scene(offset).recording))
+      return found->second = std::move(solution->means);
   std::vector<std::string> no_notes;
   Plan plan = compare::reference_plan(std::string(kLargeRun), runs_.item().file, no_notes);
   plan.seed = kLargeSeed + offset;

@@ -19,7 +19,7 @@ Runs::Runs(Item item) : item_(std::move(item)) {
 }
 
 std::unique_ptr<CatalogueModel> Runs::model_with(const std::vector<std::string>& settings,
-                                                       const std::string& where) const {
+                                                 const std::string& where) const {
   return as_bad_data([&] { return find_model(item_.recording.model, where).make(Settings(where, settings), header_); });
 }
 
