@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "mote/analog/characterise.hpp"
-#include "mote/analog/needs_ngspice.hpp"
 #include "mote/analog/simulation.hpp"
 #include "mote/analog/weights.hpp"
 
@@ -41,7 +40,6 @@ TEST(Behaviour, KnowsItsErrors) {
 // referee  ngspice, at points that are neither fitted nor those of the residual
 // twin     the circuit at another I_a is not
 TEST(Behaviour, IsTheCircuitWithinItsResidual) {
-  MOTE_NEEDS_NGSPICE;
   for (const Function function : {Function::kArctan, Function::kGaussian}) {
     const Behaviour behaviour = characterised(function, 1e-9, Level::kRealistic, {}, Detail::kTransfer);
     const auto farthest = [&](double ia_a) {
@@ -70,7 +68,6 @@ TEST(Behaviour, DrawsEachCircuitOfADieByItself) {
 // referee  ngspice
 // twin     another die is farther away
 TEST(Behaviour, HasDies) {
-  MOTE_NEEDS_NGSPICE;
   const Behaviour nominal = characterised(Function::kArctan, 10e-9, Level::kRealistic);
   const Dies dies = simulated_dies(Function::kArctan, 10e-9, {}, 7, 3);
   std::vector<double> linear;

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "mote/analog/needs_ngspice.hpp"
 #include "mote/analog/simulation.hpp"
 
 namespace mote::analog {
@@ -10,7 +9,6 @@ namespace {
 
 // claim    whatever refuse_absurd() lets through has a solution that is the circuit's: no refusal, y within 0.5
 TEST(CircuitsNightly, WorkWhereTheyAreNotRefused) {
-  MOTE_NEEDS_NGSPICE;
   for (const Function function : {Function::kArctan, Function::kGaussian})
     for (const double ia_a : {1e-11, 1e-10, 1e-9, 1e-8, 1e-7})
       for (const double temperature_c : {-40.0, 27.0, 125.0})

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "mote/analog/needs_ngspice.hpp"
 #include "mote/analog/simulation.hpp"
 #include "mote/base/numbers.hpp"
 #include "mote/base/refusal.hpp"
@@ -53,7 +52,6 @@ TEST(Circuits, HaveLoopsWhoseGatesCancel) {
 // referee  the identity itself, of the currents that ngspice finds
 // twin     transistors with finite output resistance break it
 TEST(Circuits, KeepTheirIdentities) {
-  MOTE_NEEDS_NGSPICE;
   for (const Function function : kBoth) {
     EXPECT_LT(worst_identity(function, Level::kIdeal), 1e-9) << name_of(function);
     EXPECT_GT(worst_identity(function, Level::kRealistic), 1e-3) << name_of(function);
@@ -62,7 +60,6 @@ TEST(Circuits, KeepTheirIdentities) {
 
 // referee  the closed form
 TEST(Circuits, ComputeTheirFormulasIdeally) {
-  MOTE_NEEDS_NGSPICE;
   for (const Function function : kBoth)
     for (const double ia_a : {0.1e-9, 20e-9}) {
       const Sweep sweep = swept(translinear(function), {Level::kIdeal, ia_a}, 40);
@@ -84,7 +81,6 @@ TEST(Circuits, HaveFormulasNearTheFunctions) {
 // claim    Kirchhoff's current law: what flows into a node flows out of it; so the supply delivers what its devices
 // take referee  sums over the devices at the node
 TEST(Circuits, LoseNoCurrent) {
-  MOTE_NEEDS_NGSPICE;
   for (const Function function : kBoth) {
     const Translinear circuit = translinear(function);
     const Setting setting{Level::kRealistic, 10e-9};
@@ -113,7 +109,6 @@ TEST(Circuits, LoseNoCurrent) {
 
 // claim    loops cancel temperature: from -20 to 85 C the arctan stays within 2 % of 1 rad
 TEST(Circuits, StandHeatAndCold) {
-  MOTE_NEEDS_NGSPICE;
   for (const double temperature_c : {-20.0, 85.0}) {
     const Sweep sweep =
         swept(translinear(Function::kArctan), {Level::kRealistic, 10e-9, {.temperature_c = temperature_c}}, 10);
@@ -124,7 +119,6 @@ TEST(Circuits, StandHeatAndCold) {
 
 // claim    settling takes time in proportion to 1 / I_a, as the charge on capacitances does
 TEST(Circuits, SettleInProportion) {
-  MOTE_NEEDS_NGSPICE;
   const Translinear circuit = translinear(Function::kArctan);
   const double slow = settling_time(circuit, {Level::kIdeal, 1e-9}, 1);
   const double fast = settling_time(circuit, {Level::kIdeal, 10e-9}, 1);

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "mote/analog/needs_ngspice.hpp"
 #include "mote/base/refusal.hpp"
 
 namespace mote::analog {
@@ -22,7 +21,6 @@ TEST(Spice, IsNamedWhenItIsMissing) {
 
 // referee  Ohm's law, and the charging of a capacitor through a resistor
 TEST(Spice, SolvesADividerAndACharge) {
-  MOTE_NEEDS_NGSPICE;
   Spice& spice = Spice::loaded();
   spice.take({"* divider", "vin in 0 0", "r1 in out 1k", "r2 out 0 3k"});
   spice.run("dc vin 0 4 1");
@@ -35,7 +33,6 @@ TEST(Spice, SolvesADividerAndACharge) {
 }
 
 TEST(Spice, ShowsWhatItSaidWhenItFails) {
-  MOTE_NEEDS_NGSPICE;
   const auto refused = [](const std::vector<std::string>& lines, const std::string& command) {
     try {
       Spice::loaded().take(lines);

@@ -16,13 +16,7 @@ const std::string kRun = "mote analog run bearings --data obs.csv --truth truth.
 
 class MixedMode : public ::testing::Test {
  protected:
-  /// Whether circuits can be simulated; what asks for them ends with 5 where they cannot.
-  bool has_ngspice() {
-    scratch_.shell("mote simulate bearings --steps 12 --seed 4 --out obs.csv --truth truth.csv");
-    const Ended ended = scratch_.shell(kRun + "--summary s.json --out e.csv --report r.html");
-    EXPECT_TRUE(ended.code == 0 || ended.code == 5) << ended.err;
-    return ended.code == 0;
-  }
+  MixedMode() { scratch_.shell("mote simulate bearings --steps 12 --seed 4 --out obs.csv --truth truth.csv"); }
   void expect_refused(const std::string& words, int code, const std::string& said) {
     const Ended ended = scratch_.shell(words);
     EXPECT_EQ(ended.code, code) << words << ended.err;
@@ -32,7 +26,8 @@ class MixedMode : public ::testing::Test {
 };
 
 TEST_F(MixedMode, WritesWhatARunWrites) {
-  if (!has_ngspice()) GTEST_SKIP() << "ngspice is not installed";
+  const Ended ended = scratch_.shell(kRun + "--summary s.json --out e.csv --report r.html");
+  ASSERT_EQ(ended.code, 0) << ended.err;
   const Json summary = Json::parse(scratch_.read("s.json"));
   for (const char* key : {"model", "filter", "engine", "particles", "seed", "steps", "log_evidence", "wall_seconds",
                           "ns_per_particle_step", "mean_ess", "rmse", "collapses", "position_error"})
@@ -48,7 +43,6 @@ TEST_F(MixedMode, WritesWhatARunWrites) {
 }
 
 TEST_F(MixedMode, RunsTextsAndEveryMethod) {
-  if (!has_ngspice()) GTEST_SKIP() << "ngspice is not installed";
   scratch_.write("angle.toml",
                  "[states]\nh = \"normal(0, 0.5)\"\n[next]\nh = \"h + normal(0, 0.1)\"\n[observations]\n"
                  "z = \"normal(atan(h), 0.2)\"\n");
@@ -62,7 +56,6 @@ TEST_F(MixedMode, RunsTextsAndEveryMethod) {
 }
 
 TEST_F(MixedMode, RefusesInOneSentence) {
-  scratch_.shell("mote simulate bearings --steps 3 --out obs.csv --truth truth.csv");
   expect_refused(kRun + "--analog sine=mite", 2, "--analog: expected arctan=... and gaussian=...");
   expect_refused(kRun + "--analog arctan=bipolar", 2, "expected mite");
   expect_refused(kRun + "--analog arctan=mite:Ia=-3n", 2, "expected a current above 0");
