@@ -64,7 +64,11 @@ TEST_F(MixedMode, RefusesInOneSentence) {
   expect_refused("mote analog power --simulated --rate 1000", 2, "--rate: expected none beside --simulated");
   expect_refused(kRun + "--dac-bits 17", 2, "--dac-bits: expected an integer from 0 to 16");
   expect_refused(kRun + "--method 4", 2, "--method");
-  expect_refused(kRun + "--part memory_leek=1", 2, "memory_leek");
+  expect_refused(kRun + "--part memory_leek=1", 2, "--part: expected NAME=VALUE with one of divider_gain");
+  expect_refused(kRun + "--part memory_leak=1", 2, "--part memory_leak: expected");
+  expect_refused(kRun + "--part source_clip=0", 2, "--part source_clip: expected");
+  expect_refused(kRun + "--part comparator_noise", 2, "--part comparator_noise: expected");
+  expect_refused(kRun + "--precision float", 2, "--precision: expected double around analog parts");
   expect_refused("mote analog power --node 0", 2, "--node: expected a number from 0.005 to 10");
   scratch_.write("cost.json", "{}");
   expect_refused("mote analog power --fpga cost.json", 3, "cost.json: \"power_mw\"");

@@ -1,11 +1,16 @@
 #include "mote/app/analog/mixed_run.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "mote/analog/placement.hpp"
 #include "mote/app/analog/circuit_words.hpp"
 #include "mote/app/catalogue/settings.hpp"
 #include "mote/app/commands/plan_options.hpp"
+#include "mote/app/files/text.hpp"
 #include "mote/base/refusal.hpp"
 
 namespace mote {
@@ -14,34 +19,55 @@ namespace {
 using analog::Cells;
 using analog::Design;
 
-/// The errors of parts by name, as --part takes them.
-constexpr std::array<std::pair<const char*, double Cells::*>, 9> kParts{
-    {{"divider_gain", &Cells::divider_gain},
-     {"product_gain", &Cells::product_gain},
-     {"memory_error", &Cells::memory_error},
-     {"memory_leak", &Cells::memory_leak},
-     {"source_gain", &Cells::source_gain},
-     {"source_clip", &Cells::source_clip},
-     {"multiplier_gain", &Cells::multiplier_gain},
-     {"squarer_gain", &Cells::squarer_gain},
-     {"comparator_noise", &Cells::comparator_noise}}};
+/// An error of a part, as --part takes it.
+struct PartError {
+  std::string_view name;
+  double Cells::*value;
+  Range range;
+};
+constexpr std::array<PartError, 9> kParts{{{"divider_gain", &Cells::divider_gain, Range::kFraction},
+                                           {"product_gain", &Cells::product_gain, Range::kFraction},
+                                           {"memory_error", &Cells::memory_error, Range::kFraction},
+                                           {"memory_leak", &Cells::memory_leak, Range::kFraction},
+                                           {"source_gain", &Cells::source_gain, Range::kFraction},
+                                           {"source_clip", &Cells::source_clip, Range::kPositive},
+                                           {"multiplier_gain", &Cells::multiplier_gain, Range::kFraction},
+                                           {"squarer_gain", &Cells::squarer_gain, Range::kFraction},
+                                           {"comparator_noise", &Cells::comparator_noise, Range::kNotNegative}}};
 
 std::string part_words() {
   std::string words;
-  for (const auto& [name, member] : kParts)
-    words += fmt::format("{}{} [{:g}]", words.empty() ? "" : ", ", name, Cells{}.*member);
+  for (const PartError& part : kParts)
+    words += fmt::format("{}{} [{:g}]", words.empty() ? "" : ", ", part.name, Cells{}.*part.value);
   return words;
 }
 
+const PartError& part_named(std::string_view name, const std::string& where) {
+  for (const PartError& part : kParts)
+    if (part.name == name) return part;
+  throw Refusal(ExitCode::kWrongUse, {where, "--part", "NAME=VALUE with one of " + part_words(), in_quotes(name),
+                                      "Pass for example --part memory_leak=0.001."});
+}
+
 Cells cells_from(const Arguments& arguments) {
-  const Settings settings(arguments.where() + ": --part", arguments.list("--part"));
   Cells cells;
-  std::vector<std::string> names;
-  for (const auto& [name, member] : kParts) {
-    cells.*member = settings.number(name, cells.*member, Range::kNotNegative);
-    names.emplace_back(name);
+  std::vector<std::string_view> given;
+  for (const std::string& text : arguments.list("--part")) {
+    const std::size_t sign = text.find('=');
+    const PartError& part = part_named(std::string_view(text).substr(0, sign), arguments.where());
+    const std::string_view digits = sign == std::string::npos ? "" : std::string_view(text).substr(sign + 1);
+    const auto value = number_in(digits);
+    const bool fits = value && std::isfinite(*value) && *value >= 0 && (part.range != Range::kPositive || *value > 0) &&
+                      (part.range != Range::kFraction || *value < 1);
+    if (!fits)
+      throw Refusal(ExitCode::kWrongUse, {arguments.where(), fmt::format("--part {}", part.name), words_for(part.range),
+                                          in_quotes(digits), fmt::format("Its default is {:g}.", Cells{}.*part.value)});
+    if (std::find(given.begin(), given.end(), part.name) != given.end())
+      throw Refusal(ExitCode::kWrongUse,
+                    {arguments.where(), fmt::format("--part {}", part.name), "one value", "two", "Pass it once."});
+    given.push_back(part.name);
+    cells.*part.value = *value;
   }
-  settings.finish("mixed mode", names);
   return cells;
 }
 
