@@ -65,7 +65,7 @@ Pair turned_by_quarters(Sketch& sketch, const Pair& pair, const Signal& quarter,
 }
 
 Compound cosine_and_sine(const Format& x, const Format& y, const FunctionOptions& options) {
-  Sketch sketch(function_name("cosine_and_sine", {x, y}, options), options.multiplier);
+  Sketch sketch(function_name("cosine_and_sine", {x, y}, options), options.multiplier, options.interval);
   const int fraction = y.fraction + 2;
   // the phase in turns and an eighth, so that its first two bits are the quarter and the others the place in it
   const Format turn{false, 0, fraction + 3};
@@ -83,7 +83,7 @@ Compound cosine_and_sine(const Format& x, const Format& y, const FunctionOptions
 
 Compound arc_tangent_2(const Format& point, int fraction, const FunctionOptions& options) {
   const Format y{true, 2, fraction};
-  Sketch sketch(function_name("arc_tangent_2", {point, y}, options), options.multiplier);
+  Sketch sketch(function_name("arc_tangent_2", {point, y}, options), options.multiplier, options.interval);
   const Signal b = sketch.input("b_i", point);
   const Signal a = sketch.input("a_i", point);
   return angle_of(sketch, a, b, y, options.form);
@@ -91,7 +91,7 @@ Compound arc_tangent_2(const Format& point, int fraction, const FunctionOptions&
 
 Compound arc_tangent(const Format& x, int fraction, const FunctionOptions& options) {
   const Format y{true, 1, fraction};
-  Sketch sketch(function_name("arc_tangent", {x, y}, options), options.multiplier);
+  Sketch sketch(function_name("arc_tangent", {x, y}, options), options.multiplier, options.interval);
   const Signal in = sketch.input("x_i", x);
   if (options.form == Form::kTable) {
     sketch.output("y_o",

@@ -43,6 +43,17 @@ Circuit Product::circuit() const {
   return {"mote_multiply", parameters, {port("a_i", a), port("b_i", b)}, {port("y_o", y)}, latency};
 }
 
+Circuit MultiplyAdd::circuit() const {
+  Circuit one{"mote_multiply_add",
+              {parameter("AWidth", a_width), parameter("BWidth", b_width), parameter("CWidth", c_width),
+               parameter("YWidth", y_width), parameter("Logic", multiplier == Multiplier::kLogic)},
+              {{"a_i", a_width, true}, {"b_i", b_width, true}, {"c_i", c_width, true}},
+              {{"y_o", y_width, true}},
+              product_latency(multiplier, b_width) + (multiplier == Multiplier::kLogic ? 1 : 0)};
+  one.sharing = Sharing::kWidened;
+  return one;
+}
+
 int SignedDigits::count() const { return std::popcount(plus) + std::popcount(minus); }
 
 int SignedDigits::width() const { return std::max(1, static_cast<int>(std::bit_width(plus | minus))); }

@@ -49,6 +49,20 @@ struct Product {
   Circuit circuit() const;
 };
 
+/// y = a b + c, exact, all signed: what products take turns at where a row comes every few clocks. A product's rounding is
+/// its c.
+///
+/// shape   y_width: enough for the result, at most 62
+struct MultiplyAdd {
+  int a_width, b_width, c_width, y_width;
+  Multiplier multiplier = Multiplier::kDsp;
+
+  void compute(Columns in, Results out) const {
+    for (std::size_t i = 0; i < out[0].size(); ++i) out[0][i] = in[0][i] * in[1][i] + in[2][i];
+  }
+  Circuit circuit() const;
+};
+
 /// The non-adjacent signed digits of a number: plus - minus, no two digits side by side, so the fewest there are.
 struct SignedDigits {
   std::uint64_t plus = 0;

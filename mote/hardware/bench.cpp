@@ -15,6 +15,8 @@ std::string name_of(char kind, std::size_t circuit, std::size_t port) {
   return kind + std::to_string(circuit) + "_" + std::to_string(port);
 }
 
+std::string enters_of(std::size_t circuit) { return "enters" + std::to_string(circuit); }
+
 std::string declaration(const char* direction, const std::string& name, int width) {
   return ",\n    " + std::string(direction) + " logic [" + std::to_string(width - 1) + ":0] " + name;
 }
@@ -24,6 +26,7 @@ using Connections = std::vector<std::pair<std::string, std::string>>;
 Connections connections_of(const Circuit& circuit, std::size_t c) {
   Connections connections{{"clk_i", "clk_i"}};
   if (circuit.reset) connections.emplace_back("rst_ni", "rst_ni");
+  if (circuit.interval > 1) connections.emplace_back("enters_i", enters_of(c));
   for (std::size_t p = 0; p < circuit.inputs.size(); ++p)
     connections.emplace_back(circuit.inputs[p].name, name_of('i', c, p));
   for (std::size_t p = 0; p < circuit.outputs.size(); ++p)
@@ -57,6 +60,15 @@ std::string read(const std::string& name, int width, bool sign, const std::strin
          ">(static_cast<std::uint64_t>(top." + name + ") << " + unused + ") >> " + unused + ");\n";
 }
 
+/// Says when a row goes into circuits that take one every few clocks.
+std::string entering(const std::vector<Circuit>& circuits) {
+  std::string text;
+  for (std::size_t c = 0; c < circuits.size(); ++c)
+    if (circuits[c].interval > 1)
+      text += "    top." + enters_of(c) + " = t % " + std::to_string(circuits[c].interval) + " == 0;\n";
+  return text;
+}
+
 /// The C++ around the simulated design: a reset, then a row a clock.
 std::string driver(const std::vector<Circuit>& circuits) {
   return R"(#include <cstddef>
@@ -77,13 +89,19 @@ extern "C" void run(const std::int64_t* const* in, std::int64_t* const* out, std
   for (std::size_t t = 0; t < rows; ++t) {
     top.clk_i = 0;
 )" + for_ports(circuits, 'i', driven) +
-         "    top.eval();\n    top.clk_i = 1;\n    top.eval();\n" + for_ports(circuits, 'o', read) + "  }\n}\n";
+         entering(circuits) + "    top.eval();\n    top.clk_i = 1;\n    top.eval();\n" + for_ports(circuits, 'o', read) + "  }\n}\n";
 }
 
-/// A column that holds its last word until the slowest circuit has answered.
-std::vector<Word> held(const std::vector<Word>& column, std::size_t rows) {
-  std::vector<Word> longer = column;
-  longer.resize(rows, column.back());
+/// A column as it is driven: a word every few clocks, other bits between unless it stands; the last until the slowest
+/// circuit has answered.
+std::vector<Word> driven_column(const std::vector<Word>& column, std::size_t interval, std::size_t clocks) {
+  std::vector<Word> longer(clocks, column.back());
+  for (std::size_t row = 0; row + 1 < column.size(); ++row) {
+    const bool stands = column[row] == column[row + 1];
+    std::fill_n(longer.begin() + static_cast<std::ptrdiff_t>(row * interval), interval,
+                stands ? column[row] : ~column[row]);
+    longer[row * interval] = column[row];
+  }
   return longer;
 }
 
@@ -95,8 +113,10 @@ std::string bench_module(const std::string& name, const std::vector<Circuit>& ci
       return declaration(direction, port, width);
     });
   };
-  std::string text = "module " + name + " (\n    input logic clk_i,\n    input logic rst_ni" + ports('i', "input") +
-                     ports('o', "output") + "\n);\n";
+  std::string text = "module " + name + " (\n    input logic clk_i,\n    input logic rst_ni" + ports('i', "input");
+  for (std::size_t c = 0; c < circuits.size(); ++c)
+    if (circuits[c].interval > 1) text += ",\n    input logic " + enters_of(c);
+  text += ports('o', "output") + "\n);\n";
   for (std::size_t c = 0; c < circuits.size(); ++c)
     text += instantiation(circuits[c], "u" + std::to_string(c), folder, connections_of(circuits[c], c));
   return text + "  logic unused_reset;\n  assign unused_reset = rst_ni;\nendmodule\n";
@@ -158,12 +178,17 @@ void Bench::build() {
 
 std::vector<Table> Bench::run(const std::vector<Table>& inputs, std::size_t rows) {
   int slowest = 1;
-  for (const Circuit& circuit : circuits_) slowest = std::max(slowest, circuit.latency);
-  const std::size_t clocks = rows + static_cast<std::size_t>(slowest);
+  std::size_t longest = 1;
+  for (const Circuit& circuit : circuits_) {
+    slowest = std::max(slowest, circuit.latency);
+    longest = std::max(longest, static_cast<std::size_t>(circuit.interval));
+  }
+  const std::size_t clocks = rows * longest + static_cast<std::size_t>(slowest);
   std::vector<std::vector<Word>> in;
   std::vector<std::vector<Word>> out;
   for (std::size_t c = 0; c < circuits_.size(); ++c) {
-    for (const auto& column : inputs[c]) in.push_back(held(column, clocks));
+    const auto interval = static_cast<std::size_t>(circuits_[c].interval);
+    for (const auto& column : inputs[c]) in.push_back(driven_column(column, interval, clocks));
     out.resize(out.size() + circuits_[c].outputs.size(), std::vector<Word>(clocks));
   }
   std::vector<const Word*> from;
@@ -176,8 +201,9 @@ std::vector<Table> Bench::run(const std::vector<Table>& inputs, std::size_t rows
   auto next = out.begin();
   for (std::size_t c = 0; c < circuits_.size(); ++c)
     for (std::size_t p = 0; p < circuits_[c].outputs.size(); ++p, ++next) {
-      const auto first = next->begin() + std::max(0, circuits_[c].latency - 1);
-      answers[c].emplace_back(first, first + static_cast<std::ptrdiff_t>(rows));
+      auto answer = next->begin() + std::max(0, circuits_[c].latency - 1);
+      std::vector<Word>& column = answers[c].emplace_back(rows);
+      for (std::size_t t = 0; t < rows; ++t, answer += circuits_[c].interval) column[t] = *answer;
     }
   return answers;
 }

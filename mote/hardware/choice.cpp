@@ -42,6 +42,17 @@ Circuit Convert::circuit() const {
   return {"mote_convert", parameters, {port("a_i", a)}, {port("y_o", y)}, 0};
 }
 
+Circuit Finished::circuit() const {
+  return {"mote_finish",
+          {parameter("InWidth", a.width()), parameter("InFraction", a.fraction), parameter("OutSigned", y.sign),
+           parameter("OutWidth", y.width()), parameter("OutFraction", y.fraction),
+           parameter("Nearest", finish.rounding == Rounding::kNearest),
+           parameter("Saturate", finish.overflow == Overflow::kSaturate), parameter("InRegister", false)},
+          {port("x_i", a)},
+          {port("y_o", y)},
+          1};
+}
+
 Convert bits_of(const Format& a, int first, int count, int fraction) {
   // in units of the first bit kept, which is worth 2^-fraction
   const Format as_if{a.sign, a.width() - (a.sign ? 1 : 0) - first - fraction, first + fraction};

@@ -1,5 +1,6 @@
 #pragma once
-/// Comparisons and choices: golden twins of mote_less, mote_select, mote_extremum, mote_negate_if and mote_convert.
+/// Comparisons and choices: golden twins of mote_less, mote_select, mote_extremum, mote_negate_if, mote_convert
+/// and mote_finish.
 
 #include "mote/hardware/circuit.hpp"
 
@@ -50,6 +51,16 @@ struct NegateIf {
 
 /// y = a in another format, without a register.
 struct Convert {
+  Format a, y;
+  Finish finish = {};
+
+  Word operator()(Word number) const { return resized(number, a.fraction, y, finish); }
+  void compute(Columns in, Results out) const { each(in[0], out[0], *this); }
+  Circuit circuit() const;
+};
+
+/// The same behind a register.
+struct Finished {
   Format a, y;
   Finish finish = {};
 

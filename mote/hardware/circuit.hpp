@@ -2,6 +2,7 @@
 /// A circuit as its user sees it: the module to instantiate, its parameters, ports, latency and tables.
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
@@ -52,6 +53,13 @@ struct Source {
   std::string c;
 };
 
+/// Whether an operator is worth what it costs to choose operands for it, where several take turns at one instance.
+enum class Sharing : std::uint8_t {
+  kNever,
+  kAlike,   ///< with operators of the same parameters and tables
+  kWidened  ///< with any of its module and latency: its parameters are widths, of which the largest serve all
+};
+
 /// An instance to be. Every module has the clock clk_i; one word a clock goes in and, `latency` clocks later, out.
 struct Circuit {
   std::string module;
@@ -62,6 +70,8 @@ struct Circuit {
   bool reset = false;  ///< it has state, and rst_ni sets it to its beginning
   std::vector<Memory> memories = {};
   std::vector<Source> sources = {};  ///< modules that it needs beside the library's
+  Sharing sharing = Sharing::kNever;
+  int interval = 1;  ///< clocks from one word to the next; above 1, enters_i is 1 when one goes in
 };
 
 /// The name of the file of an instance's table: <instance>.<parameter>.hex, in lower case.

@@ -4,9 +4,11 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "mote/hardware/circuit.hpp"
+#include "mote/hardware/turns.hpp"
 
 namespace mote::hardware {
 
@@ -19,12 +21,17 @@ struct Wire {
 /// A pipeline under construction, and an operator once its outputs are named.
 ///
 /// Every operator starts as soon as its last operand is there; earlier operands wait in delays, which wires share. So
-/// is the latency from inputs to outputs the same on all paths, and one row a clock goes through. cost    the twin: one
-/// pass over the columns for each operator
+/// is the latency from inputs to outputs the same on all paths, and one row a clock goes through. With an interval of k
+/// clocks from row to row, costly operators take turns (turns.hpp), also those of compounds within; enters_i tells when a
+/// row goes in, and rows that are under way together have gone in a multiple of k clocks apart. The twin is the same.
+///
+/// cost    the twin: one pass over the columns for each operator
 class Compound {
  public:
   /// shape   name: of the SystemVerilog module, so unique in a design
-  explicit Compound(std::string name) : name_(std::move(name)) {}
+  explicit Compound(std::string name, int interval = 1) : name_(std::move(name)), turns_(interval) {}
+
+  int interval() const { return turns_.interval(); }
 
   Wire input(const std::string& name, const Format& format);
   /// An input that stands still while rows go through, so that it waits in no delay; a twin has a column for it, too.
@@ -34,6 +41,8 @@ class Compound {
   /// An operator's output wires are those of its circuit, in order; the first is returned.
   template <Operator O>
   Wire add(const O& op, const std::vector<Wire>& operands) {
+    if constexpr (std::is_same_v<O, Compound>)
+      if (interval() > 1) return inlined(op, operands);
     return append(
         op.circuit(), [op](Columns in, Results out) { op.compute(in, out); }, operands);
   }
@@ -47,7 +56,7 @@ class Compound {
  private:
   using Twin = std::function<void(Columns, Results)>;
   struct Node {
-    Circuit circuit;  ///< an input and a constant have no module, one output and no twin
+    Circuit circuit;  ///< an input and a constant have no module, one output and no twin; wires gathered have a twin
     Twin twin;
     std::vector<Wire> operands;
     int ready = 0;        ///< the clock after which its outputs are there
@@ -61,11 +70,15 @@ class Compound {
   };
 
   Wire append(const Circuit& circuit, Twin twin, const std::vector<Wire>& operands);
+  Wire inlined(const Compound& inner, const std::vector<Wire>& operands);
+  Wire gathered(const std::vector<Port>& ports, const std::vector<Wire>& wires);
   int latency() const;
+  std::vector<std::size_t> owners() const;
   std::string text() const;
   std::string c_function() const;
 
   std::string name_;
+  Turns turns_;
   std::vector<Node> nodes_;
   std::vector<std::size_t> inputs_;
   std::vector<Output> outputs_;

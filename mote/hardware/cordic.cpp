@@ -75,7 +75,11 @@ Circuit Cordic::circuit() const {
            {"Angles", packed(angles_, z_.width())}},
           {{"x_i", width_, true}, {"y_i", width_, true}, port("z_i", z_)},
           {{"x_o", width_, true}, {"y_o", width_, true}, port("z_o", z_)},
-          stages};
+          stages,
+          false,
+          {},
+          {},
+          Sharing::kAlike};
 }
 
 }  // namespace mote::hardware

@@ -8,7 +8,7 @@
 namespace mote::hardware {
 
 Compound logarithm(const Format& x, const Format& y, const FunctionOptions& options) {
-  Sketch sketch(function_name("logarithm", {x, y}, options), options.multiplier);
+  Sketch sketch(function_name("logarithm", {x, y}, options), options.multiplier, options.interval);
   const Floating number = floating(sketch, sketch.input("x_i", x));
   const int fraction = y.fraction + 3;
   const Format part{true, 6, fraction};
@@ -35,7 +35,7 @@ Compound logarithm(const Format& x, const Format& y, const FunctionOptions& opti
 }
 
 Compound exponential(const Format& x, const Format& y, const FunctionOptions& options) {
-  Sketch sketch(function_name("exponential", {x, y}, options), options.multiplier);
+  Sketch sketch(function_name("exponential", {x, y}, options), options.multiplier, options.interval);
   const Signal in = sketch.input("x_i", x);
   const int fraction = std::max(4, y.integer + y.fraction + 3);
   // exp(x) = 2^power 2^rest

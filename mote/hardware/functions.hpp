@@ -17,6 +17,7 @@ enum class Form { kTable, kCordic };
 struct FunctionOptions {
   Form form = Form::kTable;
   Multiplier multiplier = Multiplier::kDsp;
+  int interval = 1;  ///< clocks from one word to the next
 };
 
 /// y = 1 / x. 0 is taken for one step of x.

@@ -31,7 +31,9 @@ Circuit Lookup::circuit() const {
           {port("word_o", y_)},
           in_block() ? 2 : 1,
           false,
-          {memory()}};
+          {memory()},
+          {},
+          memory_bits() < kSharedFrom ? Sharing::kNever : Sharing::kAlike};
 }
 
 Circuit LookupPair::circuit() const {
@@ -43,7 +45,9 @@ Circuit LookupPair::circuit() const {
           {port("word0_o", y), port("word1_o", y)},
           2,
           false,
-          {table.memory()}};
+          {table.memory()},
+          {},
+          Sharing::kAlike};
 }
 
 }  // namespace mote::hardware

@@ -21,6 +21,9 @@ class Lookup {
   /// From so many bits on synthesis puts a table into a block of memory, whose words come a clock later.
   static constexpr std::size_t kBlockFrom = 8192;
 
+  /// From so many bits on a table costs more than a choice of its number.
+  static constexpr std::size_t kSharedFrom = 1024;
+
   Lookup(const std::function<double(double)>& function, const Format& x, const Format& y);
   /// The entries as they are, that of the number 0 first and those of negative numbers after the others.
   Lookup(const Format& x, const Format& y, std::vector<Word> table);

@@ -78,7 +78,9 @@ Circuit Piecewise::circuit() const {
           {port("y_o", shape_.y)},
           latency,
           false,
-          {std::move(memory)}};
+          {std::move(memory)},
+          {},
+          Sharing::kAlike};
 }
 
 }  // namespace mote::hardware

@@ -27,7 +27,7 @@ Compound signed_quotient(Sketch& sketch, const Signal& quotient, const Signal& s
 }  // namespace
 
 Compound reciprocal(const Format& x, const Format& y, const FunctionOptions& options) {
-  Sketch sketch(function_name("reciprocal", {x, y}, options), options.multiplier);
+  Sketch sketch(function_name("reciprocal", {x, y}, options), options.multiplier, options.interval);
   const Signal in = sketch.input("x_i", x);
   const Signal negative = sketch.sign(in);
   const Floating number = floating(sketch, sketch.magnitude(in, negative));
@@ -38,7 +38,7 @@ Compound reciprocal(const Format& x, const Format& y, const FunctionOptions& opt
 }
 
 Compound divide(const Format& a, const Format& b, const Format& y, const FunctionOptions& options) {
-  Sketch sketch(function_name("divide", {a, b, y}, options), options.multiplier);
+  Sketch sketch(function_name("divide", {a, b, y}, options), options.multiplier, options.interval);
   const Signal dividend = sketch.input("a_i", a);
   const Signal divisor = sketch.input("b_i", b);
   const Signal a_negative = sketch.sign(dividend);
@@ -72,7 +72,7 @@ Compound divide(const Format& a, const Format& b, const Format& y, const Functio
 }
 
 Compound square_root(const Format& x, const Format& y, const FunctionOptions& options) {
-  Sketch sketch(function_name("square_root", {x, y}, options), options.multiplier);
+  Sketch sketch(function_name("square_root", {x, y}, options), options.multiplier, options.interval);
   // an even number of bits on either side of the point; x = v 2^integer 4^-pairs with v in [1/4, 1)
   const int fraction = x.fraction + (x.fraction & 1);
   const int integer = x.integer + (x.integer & 1);

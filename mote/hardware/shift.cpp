@@ -7,7 +7,11 @@ Circuit Normalise::circuit() const {
           {parameter("Width", width), parameter("EWidth", e_width()), parameter("Even", even)},
           {{"x_i", width, false}, {"n_i", width, false}},
           {{"e_o", e_width(), false}, {"m_o", width, false}, {"n_o", width, false}},
-          3};
+          3,
+          false,
+          {},
+          {},
+          Sharing::kAlike};
 }
 
 Circuit Scale::circuit() const {
@@ -16,7 +20,11 @@ Circuit Scale::circuit() const {
            parameter("YWidth", y.width()), parameter("YFraction", y.fraction)},
           {port("m_i", m), {"s_i", s_width, false}},
           {port("y_o", y)},
-          3};
+          3,
+          false,
+          {},
+          {},
+          Sharing::kAlike};
 }
 
 }  // namespace mote::hardware

@@ -5,6 +5,9 @@
 namespace mote::hardware {
 namespace {
 
+/// Bits of two factors whose product a word of 62 bits holds.
+constexpr int kMostOfProduct = 60;
+
 /// How a result in [least, greatest] steps of 2^-fraction is finished: what cannot overflow needs no saturation, and
 /// what loses no bits no rounding.
 Finish finish_of(WideWord least, WideWord greatest, int fraction, const Format& y, Rounding rounding) {
@@ -35,7 +38,29 @@ Signal Sketch::product(const Signal& a, const Signal& b, const Format& y) {
                               at(a.format.greatest(), b.format.least()), at(a.format.greatest(), b.format.greatest())};
   const auto [least, greatest] = std::minmax_element(std::begin(corners), std::end(corners));
   const Finish finish = finish_of(*least, *greatest, a.format.fraction + b.format.fraction, y, Rounding::kNearest);
+  const bool takes_turns = compound_.interval() > 1 && a.format.width() + b.format.width() < kMostOfProduct;
+  if (takes_turns) return product_in_turn(a, b, y, finish);
   return op(Product{a.format, b.format, y, multiplier_, finish}, y, a, b);
+}
+
+/// The same by a multiplier that adds: half a step of the result in place of rounding.
+Signal Sketch::product_in_turn(const Signal& a, const Signal& b, const Format& y, Finish finish) {
+  const auto signed_of = [&](const Signal& x) {
+    const Format wide{true, x.format.integer, x.format.fraction};
+    return x.format.sign ? x : convert(x, wide, {Rounding::kDown, Overflow::kWrap});
+  };
+  const Signal left = signed_of(a);
+  const Signal right = signed_of(b);
+  const int fraction = a.format.fraction + b.format.fraction;
+  const int drop = fraction - y.fraction;
+  const Word half = finish.rounding == Rounding::kNearest && drop > 0 ? Word{1} << (drop - 1) : 0;
+  const Format offset{true, half == 0 ? 1 : drop, 0};
+  const MultiplyAdd unit{left.format.width(), right.format.width(), offset.width(),
+                         left.format.width() + right.format.width(), multiplier_};
+  const Format whole{true, unit.y_width - 1 - fraction, fraction};
+  const Signal exact = op(unit, whole, left, right, constant(offset, static_cast<double>(half)));
+  if (finish.overflow == Overflow::kWrap) return convert(exact, y, {Rounding::kDown, Overflow::kWrap});
+  return op(Finished{whole, y, {Rounding::kDown, Overflow::kSaturate}}, y, exact);
 }
 
 Signal Sketch::scaled(const Signal& a, double c, int bits, const Format& y, Overflow overflow) {

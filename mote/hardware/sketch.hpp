@@ -24,7 +24,8 @@ struct Signal {
 /// Results round to nearest and saturate, unless a function says otherwise; sums and products that fit spare either.
 class Sketch {
  public:
-  Sketch(std::string name, Multiplier multiplier) : compound_(std::move(name)), multiplier_(multiplier) {}
+  Sketch(std::string name, Multiplier multiplier, int interval = 1)
+      : compound_(std::move(name), interval), multiplier_(multiplier) {}
 
   Signal input(const std::string& name, const Format& format) { return {compound_.input(name, format), format}; }
   Signal standing(const std::string& name, const Format& format) { return {compound_.standing(name, format), format}; }
@@ -73,6 +74,7 @@ class Sketch {
 
  private:
   Signal added(Sum sum, const Signal& a, const Signal& b);
+  Signal product_in_turn(const Signal& a, const Signal& b, const Format& y, Finish finish);
 
   Compound compound_;
   Multiplier multiplier_;

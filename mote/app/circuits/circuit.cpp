@@ -55,6 +55,7 @@ ModelDatapath model_datapath(const std::shared_ptr<const CatalogueModel>& model,
   options.prefix = "mote_" + identifier(name);
   options.overlapped = design.variant.overlapped;
   options.more_bits = design.more_bits;
+  options.interval = design.interval;
   options.multiplier = design.multiplier;
   return {study.recorded(), hardware::datapath(study.recorded(), study.samples(), options)};
 }

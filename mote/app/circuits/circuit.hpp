@@ -23,6 +23,7 @@ struct CircuitDesign {
   std::string proposal = "prior";  ///< of an architecture whose weights are those of pairs
   hardware::RegisterAccess access = hardware::RegisterAccess::kPorts;
   hardware::Multiplier multiplier = hardware::Multiplier::kDsp;  ///< of the model's pipelines and the filter
+  int interval = 1;   ///< cycles from a particle to the next, in which costly operators take turns
   int more_bits = 0;  ///< after the point, of all words, than the sensitivities ask for
 };
 
@@ -43,7 +44,7 @@ struct ModelDatapath {
   hardware::Datapath datapath;
 };
 
-/// The pipelines of a design: they depend on its instances, proposal, more_bits and whether steps overlap. Words are
+/// The pipelines of a design: they depend on its instances, proposal, more_bits, interval and whether steps overlap. Words are
 /// chosen on recordings that the model draws.
 ///
 /// error   Refusal (kWrongUse): no circuit exists for an operation of the model, or it is not as many copies as

@@ -46,6 +46,7 @@ void refuse_unread(const Arguments& arguments, const CircuitDesign& design) {
       {"--burn-in", r.burn_in != 0, has("burn_in")},
       {"--chain-mean", r.chain_mean, has("chain_mean")},
       {"--overlap", design.variant.overlapped, architecture.chain},
+      {"--ii", design.interval != 1, architecture.turns},
       {"--proposal", design.proposal != "prior", architecture.pairs},
       {"--lanes", design.lanes != 1, architecture.most_lanes > 1},
       {"--exchange", r.exchange != 0, has("exchange")},
@@ -55,6 +56,13 @@ void refuse_unread(const Arguments& arguments, const CircuitDesign& design) {
     if (asked && !taken)
       throw Refusal(ExitCode::kWrongUse, {arguments.where(), option, "an architecture that has it",
                                           std::string(architecture.name), "Leave it out, or pass another --arch."});
+}
+
+/// A step that begins while the one before is decided on has a row for every cycle.
+void refuse_overlapped_turns(const Arguments& arguments, const CircuitDesign& design) {
+  if (design.interval > 1 && design.variant.overlapped)
+    throw Refusal(ExitCode::kWrongUse, {arguments.where(), "--ii", "1 with --overlap", std::to_string(design.interval),
+                                        "Leave out one of them."});
 }
 
 unsigned lanes_from(const Arguments& arguments, const CircuitDesign& design) {
@@ -104,6 +112,10 @@ std::vector<OptionSpec> circuit_options() {
       {"--overlap", "", "", "imh: begin a step while the one before is still decided on", "Circuit"},
       {"--proposal", "NAME", "prior", "auxiliary: where new particles come from (see mote models NAME)", "Circuit"},
       {"--lanes", "L", "", "chains, pairs of imh-chain, lanes or groups: a power of two [4]", "Circuit"},
+      {"--ii", "K", "1",
+       "cycles from a particle to the next, from 1 to 16: costly operators of the model take turns (imh, imh-parallel, "
+       "auxiliary, sisr, sisr-lanes)",
+       "Circuit"},
       {"--more-bits", "B", "0", "bits after the point, of every word, more than chosen: from -8 to 8", "Circuit"},
       {"--exchange", "M", "", "groups: children that each group has from the one before it, to N/L [1]", "Circuit"},
       {"--resampler", "KIND", "", "sisr, sisr-plain, groups: " + listed(kResamplers) + " [systematic]", "Circuit"},
@@ -127,6 +139,7 @@ CircuitDesign circuit_design_from(const Arguments& arguments) {
   design.where = arguments.where();
   design.proposal = arguments.text("--proposal");
   design.more_bits = static_cast<int>(arguments.integer("--more-bits", -8, 8));
+  design.interval = static_cast<int>(arguments.integer("--ii", 1, 16));
   if (family_from(arguments) == hardware::Family::kIce40) design.multiplier = hardware::Multiplier::kLogic;
   design.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 0, 9223372036854775807LL));
   design.lanes = lanes_from(arguments, design);
@@ -137,6 +150,7 @@ CircuitDesign circuit_design_from(const Arguments& arguments) {
                   {arguments.where(), "--registers", "ports with --instances", "\"axi-lite\"", "Leave it out."});
   design.registers.exchange = exchange_from(arguments, design);
   refuse_unread(arguments, design);
+  refuse_overlapped_turns(arguments, design);
   refuse_uneven(arguments, design);
   return design;
 }

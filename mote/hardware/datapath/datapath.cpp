@@ -35,12 +35,12 @@ class Builder {
         recorded_(recorded),
         precision_(precision),
         options_(options),
-        functions_({options.form, options.multiplier}) {
+        functions_({options.form, options.multiplier, options.interval}) {
     if (options.fuse) fused_ = fused(plan, precision, functions_.options());
   }
 
   Compound propose() {
-    Sketch sketch(options_.prefix + "_propose", options_.multiplier);
+    Sketch sketch(options_.prefix + "_propose", options_.multiplier, options_.interval);
     Mapping mapping(plan_, recorded_, precision_, fused_, sketch, functions_);
     const Signal first = of_the_step(sketch, "first_i", {false, 1, 0});
     const std::vector<Signal> states = state_ports(sketch, "state");
@@ -60,7 +60,7 @@ class Builder {
   }
 
   Compound weigh() {
-    Sketch sketch(options_.prefix + "_weigh", options_.multiplier);
+    Sketch sketch(options_.prefix + "_weigh", options_.multiplier, options_.interval);
     Mapping mapping(plan_, recorded_, precision_, fused_, sketch, functions_);
     give_states(mapping, Role::kState, state_ports(sketch, "state"));
     if (recorded_.log_ratio) give_states(mapping, Role::kBefore, state_ports(sketch, "before"));
@@ -235,6 +235,13 @@ Connections state_connections(const Datapath& datapath, const std::string& bus, 
   return all;
 }
 
+/// The clock, and what tells of a particle where operators take turns.
+Connections clock_of(const Compound& pipeline, const char* valid) {
+  Connections all{{"clk_i", "clk_i"}};
+  if (pipeline.circuit().interval > 1) all.emplace_back("enters_i", valid);
+  return all;
+}
+
 void append_fields(Connections& all, const Datapath& datapath, const char* bus) {
   for (std::size_t k = 0; k < datapath.observed.size(); ++k)
     all.emplace_back(numbered("obs", k), slice(bus, datapath.observed[k].at, datapath.observed[k].format.width()));
@@ -251,7 +258,8 @@ double Datapath::mean(std::size_t d, std::int64_t word) const {
 }
 
 Connections propose_connections(const Datapath& datapath) {
-  Connections all{{"clk_i", "clk_i"}, {"first_i", "t == 16'd1"}};
+  Connections all = clock_of(datapath.propose, "propose_valid");
+  all.emplace_back("first_i", "t == 16'd1");
   const Connections in = state_connections(datapath, "parent", "_i", 0);
   const Connections out = state_connections(datapath, "proposed", "_o", datapath.arithmetic.formats.carried);
   all.insert(all.end(), in.begin(), in.end());
@@ -263,7 +271,7 @@ Connections propose_connections(const Datapath& datapath) {
 }
 
 Connections weigh_connections(const Datapath& datapath) {
-  Connections all{{"clk_i", "clk_i"}};
+  Connections all = clock_of(datapath.weigh, "weigh_valid");
   const Connections in = state_connections(datapath, "to_weigh", "_i", datapath.arithmetic.formats.carried);
   all.insert(all.end(), in.begin(), in.end());
   append_fields(all, datapath, "weigh_obs");
@@ -289,6 +297,7 @@ Datapath datapath(const graph::Recorded& recorded, const Samples& samples, const
   formats.draw_words = static_cast<unsigned>(draw_words(recorded));
   formats.propose_latency = static_cast<unsigned>(made.propose.circuit().latency);
   formats.weigh_latency = static_cast<unsigned>(made.weigh.circuit().latency);
+  formats.interval = static_cast<unsigned>(options.interval);
   formats.product_latency = options.multiplier == Multiplier::kLogic ? kLogicProduct : 1;
   made.arithmetic = golden(made.propose, made.weigh, formats);
   std::vector<Format> words;

@@ -22,6 +22,7 @@ struct DatapathOptions {
   int more_bits = 0;                  ///< after the point, for all words
   bool fuse = true;                   ///< functions of one number become one table where that is smaller
   bool overlapped = false;            ///< observations go with each particle instead of standing
+  int interval = 1;                   ///< clocks from a particle to the next, in which costly operators take turns
   std::string prefix = "mote_model";  ///< of the modules' names: <prefix>_propose and <prefix>_weigh
 };
 
@@ -63,7 +64,8 @@ struct Datapath {
 using Connections = std::vector<std::pair<std::string, std::string>>;
 
 /// Connections of the pipelines to buses of mote_imh and mote_sisr by these names: t, obs, parent, words, proposed;
-/// weigh_obs, to_weigh, log_weight.
+/// weigh_obs, to_weigh, log_weight; and, where
+/// operators take turns, to propose_valid and weigh_valid.
 Connections propose_connections(const Datapath& datapath);
 Connections weigh_connections(const Datapath& datapath);
 

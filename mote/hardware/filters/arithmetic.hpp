@@ -28,6 +28,7 @@ struct Formats {
   unsigned extra_bits = 8;    ///< fraction bits of a mean beyond those of the state
   unsigned propose_latency = 4, weigh_latency = 4;
   unsigned product_latency = 1;  ///< of the filter's own products: by multipliers, or longer by adders (mote_times)
+  unsigned interval = 1;         ///< cycles from a particle of a lane to the next, at least
   unsigned carried = 0;          ///< words beside the state's that a proposal brings to be weighed, of value_bits each
   unsigned count_bits = 10;      ///< At of a circuit that resamples: N <= 2^count_bits, from 6
 };

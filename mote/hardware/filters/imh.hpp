@@ -43,21 +43,26 @@ struct ImhLanes {
   std::uint64_t chain_latency() const { return folded ? count + 2 : 1; }
 };
 
-/// Cycles of a step of r rows, K_p + K_w of them to fill the pipelines:  (r - 1) + K_p + K_w + 1.
+/// Cycles of a step of r rows, one every T, K_p + K_w of them to fill the pipelines:  (r - 1) T + K_p + K_w + 1.
 ///
 /// Overlapped, the last of them are those of the next step: its row j has its parents among the first min(n, n - H + j)
 /// of n slots, which have emerged by then.
 ///
 ///   step = r + W - H,   W = K_p + K_w - 2,   H = min(W, floor(n / 2)),   n = N / lanes
 ///
-/// source  IMH-HW section 5.3 with T_p = T_w = T_D = 1; lanes before one chain: T_D = 1/lanes
+/// Overlapped steps have T = 1.
+///
+/// source  IMH-HW section 5.3 with T_p = T_w = T, T_D = 1; lanes before one chain: T_D = 1/lanes
 struct ImhLatency {
   std::uint64_t propose, weigh;  ///< K_p and K_w
+  std::uint64_t interval;        ///< T
   explicit ImhLatency(const Formats& f, const ImhLanes& lanes = {})
-      : propose(3 + f.product_latency + f.propose_latency), weigh(f.weigh_latency + lanes.chain_latency()) {}
+      : propose(3 + f.product_latency + f.propose_latency),
+        weigh(f.weigh_latency + lanes.chain_latency()),
+        interval(f.interval) {}
   /// From the beginning of a step to its last decision.
   std::uint64_t decided(const ImhRegisters& r, const ImhLanes& lanes = {}) const {
-    return lanes.rows(r) - 1 + propose + weigh + 1;
+    return (lanes.rows(r) - 1) * interval + propose + weigh + 1;
   }
   /// H: rows of a step that choose among fewer slots than all.
   std::uint64_t restricted(std::uint32_t slots) const {

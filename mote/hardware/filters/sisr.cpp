@@ -1,6 +1,5 @@
 #include "mote/hardware/filters/sisr.hpp"
 
-#include <numeric>
 #include <utility>
 
 namespace mote::hardware {
@@ -54,12 +53,18 @@ void Sisr::choose_parents() {
     for (std::size_t j = 0; j < parents.size(); ++j) parents_[d][j] = set_[d][parents[j]];
 }
 
+/// Whether the step takes a parent in a cycle: from its beginning on, one in `interval` cycles.
+bool Sisr::in_turn(std::uint64_t cycle) const {
+  const std::uint64_t first = pace_.begun() + 2;
+  return cycle >= first && (cycle - first) % arithmetic_.formats.interval == 0;
+}
+
 /// The walk beside the next step's proposals: parents are taken as they come, once the step has begun.
 std::vector<std::uint32_t> Sisr::walk_beside(ParentWalk& walk) {
   std::vector<std::uint32_t> parents;
   for (std::size_t k = 0; k < issued_.size();) {
     const std::uint64_t now = walk.now();
-    if (walk.cycle(now > pace_.begun() + 1, parents)) issued_[k++] = now;
+    if (walk.cycle(in_turn(now), parents)) issued_[k++] = now;
   }
   return parents;
 }
@@ -86,7 +91,8 @@ Estimate Sisr::infer() {
 
 void Sisr::keep_time() {
   const Formats& f = arithmetic_.formats;
-  if (t_ == 1) std::iota(issued_.begin(), issued_.end(), pace_.begun() + 2);
+  if (t_ == 1)
+    for (std::size_t k = 0; k < issued_.size(); ++k) issued_[k] = pace_.begun() + 2 + k * f.interval;
   const std::uint64_t model = 2 + f.propose_latency + f.weigh_latency;
   for (std::size_t k = 0; k < issued_.size(); ++k) written_[k] = issued_[k] + model + weight_cycles(lanes_);
   pace_.free_from(issued_.back() + model);

@@ -40,6 +40,7 @@ class Sisr {
   std::uint64_t cycles() const { return pace_.left(); }
 
  private:
+  bool in_turn(std::uint64_t cycle) const;
   std::vector<std::uint32_t> walk_beside(ParentWalk& walk);
   std::vector<std::uint32_t> walk_last(ParentWalk& walk);
   void choose_parents();

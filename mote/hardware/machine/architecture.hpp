@@ -75,6 +75,7 @@ struct Architecture {
   bool schemes = false;            ///< resamples by any scheme of Resampler
   bool loops = false;              ///< in loops that can be pipelined and merged
   std::string_view c_filter = {};  ///< its golden model in C: a file of machine/golden
+  bool turns = false;              ///< may take a particle every few cycles, so that operators take turns
 
   /// How its chains are fed.
   ImhLanes fed(const Capacity& c) const { return {c.lanes, Parents::kBanked, folded, c.variant.overlapped}; }

@@ -19,7 +19,7 @@ struct Field {
 /// The pipelines and their golden functions.
 ///
 /// Connections lead to the buses of mote_imh and mote_sisr by these names: t, obs, parent, words, proposed of propose;
-/// weigh_obs, to_weigh, log_weight of weigh.
+/// weigh_obs, to_weigh, log_weight of weigh; and, where operators take turns, propose_valid and weigh_valid.
 struct ModelCircuit {
   using Connections = std::vector<std::pair<std::string, std::string>>;
 

@@ -4,6 +4,7 @@ module imh_growth #(
     parameter int unsigned Parents = 1,
     parameter int unsigned Folded  = 0,
     parameter int unsigned Overlapped = 0,
+    parameter int unsigned Interval = 1,
     localparam int unsigned SlotWidth = $clog2(1024 / Lanes)
 ) (
     input  logic               clk_i,
@@ -36,7 +37,7 @@ module imh_growth #(
   logic [Lanes-1:0][23:0] log_weight;
   logic unused_propose_valid, unused_weigh_valid;
   mote_imh #(
-      .Lanes(Lanes), .Parents(Parents), .Folded(Folded), .Overlapped(Overlapped), .Dims(2), .ObsWidth(58), .DrawWords(2),
+      .Lanes(Lanes), .Parents(Parents), .Folded(Folded), .Overlapped(Overlapped), .Interval(Interval), .Dims(2), .ObsWidth(58), .DrawWords(2),
       .ProposeLatency(6), .WeighLatency(5)
   ) u_imh (
       .clk_i, .rst_ni, .start_i, .n_i, .draws_i, .burn_in_i, .steps_i, .chain_mean_i, .busy_o,

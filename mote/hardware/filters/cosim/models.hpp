@@ -82,6 +82,13 @@ inline Arithmetic growth() {
   return model;
 }
 
+/// The same with a particle every `interval` cycles.
+inline Arithmetic growth_every(unsigned interval) {
+  Arithmetic model = growth();
+  model.formats.interval = interval;
+  return model;
+}
+
 /// cosim/sisr_ranked.sv; observed: how many particles have a weight.
 inline Arithmetic ranked() {
   Arithmetic model;

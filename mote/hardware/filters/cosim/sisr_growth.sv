@@ -1,6 +1,7 @@
 // The bootstrap filter of growth_propose.sv, for co-simulation.
 module sisr_growth #(
     parameter int unsigned Lanes = 1,
+    parameter int unsigned Interval = 1,
     localparam int unsigned SlotWidth = 10 - $clog2(Lanes)
 ) (
     input  logic               clk_i,
@@ -29,7 +30,7 @@ module sisr_growth #(
   logic [Lanes-1:0][23:0] log_weight;
   logic unused_propose_valid, unused_weigh_valid;
   mote_sisr #(
-      .Lanes(Lanes), .Dims(2), .ObsWidth(58), .DrawWords(2), .ProposeLatency(6), .WeighLatency(5)
+      .Lanes(Lanes), .Interval(Interval), .Dims(2), .ObsWidth(58), .DrawWords(2), .ProposeLatency(6), .WeighLatency(5)
   ) u_sisr (
       .clk_i, .rst_ni, .start_i, .n_i, .steps_i, .busy_o,
       .obs_valid_i, .obs_ready_o, .obs_i,

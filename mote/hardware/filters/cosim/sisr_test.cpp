@@ -1,8 +1,10 @@
 #include "mote/hardware/filters/sisr.hpp"
 
+#include "Vsisr_2_in_turn.h"
 #include "Vsisr_2_lanes.h"
 #include "Vsisr_4_lanes.h"
 #include "Vsisr_growth.h"
+#include "Vsisr_in_turn.h"
 #include "Vsisr_local_level.h"
 #include "Vsisr_merged.h"
 #include "Vsisr_pipelined.h"
@@ -44,6 +46,18 @@ struct FourLanes : GrowthCircuit {
   static constexpr unsigned kLanes = 4;
   static constexpr std::uint64_t kGoal = 16500;
   static Sisr golden(std::uint64_t seed) { return {model(), seed, 0, kLanes}; }
+};
+struct EveryThirdCycle : GrowthCircuit {
+  using Top = Vsisr_in_turn;
+  static constexpr std::uint64_t kGoal = 3 * 54000;
+  static Sisr golden(std::uint64_t seed) { return {model(), seed}; }
+  static Arithmetic model() { return growth_every(3); }
+};
+struct TwoLanesEverySecondCycle : GrowthCircuit {
+  using Top = Vsisr_2_in_turn;
+  static constexpr unsigned kLanes = 2;
+  static Sisr golden(std::uint64_t seed) { return {model(), seed, 0, kLanes}; }
+  static Arithmetic model() { return growth_every(2); }
 };
 struct PlainCircuit : GrowthCircuit {
   using Top = Vsisr_plain;
@@ -89,8 +103,8 @@ class SisrCircuit : public ::testing::Test {
 
   Bench<typename Circuit::Top> bench_{with_tables(Circuit::model().formats), Circuit::kLanes};
 };
-using Circuits = ::testing::Types<LocalLevelCircuit, GrowthCircuit, TwoLanes, FourLanes, PlainCircuit, PipelinedCircuit,
-                                  MergedCircuit>;
+using Circuits = ::testing::Types<LocalLevelCircuit, GrowthCircuit, TwoLanes, FourLanes, EveryThirdCycle,
+                                  TwoLanesEverySecondCycle, PlainCircuit, PipelinedCircuit, MergedCircuit>;
 TYPED_TEST_SUITE(SisrCircuit, Circuits);
 
 TYPED_TEST(SisrCircuit, EqualsTheGoldenModelAndItsCyclesAtEverySize) {

@@ -87,6 +87,28 @@ static inline void mote_multiply(const mote_multiply_parameters *p, int64_t a, i
                     p->Saturate);
 }
 
+// ---- y = a b + c
+
+typedef struct {
+  int AWidth, BWidth, CWidth, YWidth, Logic;
+} mote_multiply_add_parameters;
+
+static inline void mote_multiply_add(const mote_multiply_add_parameters *p, int64_t a, int64_t b, int64_t c,
+                                     int64_t *y) {
+  (void)p;
+  *y = a * b + c;
+}
+
+// ---- y = a in another format, behind a register
+
+typedef struct {
+  int InWidth, InFraction, OutSigned, OutWidth, OutFraction, Nearest, Saturate, InRegister;
+} mote_finish_parameters;
+
+static inline void mote_finish(const mote_finish_parameters *p, int64_t a, int64_t *y) {
+  *y = mote_resized(a, p->InFraction, p->OutSigned, p->OutWidth, p->OutFraction, p->Nearest, p->Saturate);
+}
+
 // ---- y = a c,  c = (Plus - Minus) 2^-CFraction
 
 typedef struct {

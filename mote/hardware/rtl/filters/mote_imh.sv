@@ -24,12 +24,12 @@
 // formats  states: Dims signed words of ValueWidth bits; log weights: signed, octaves, 10 fraction bits
 // range    Lanes a power of two, n_i and draws_i multiples of it; Lanes <= n_i <= Most; n_i <= draws_i;
 //          draws_i + Lanes burn_in_i <= 2^At (Folded: draws_i + burn_in_i); Most <= 2^At. Registers are read at start_i
-// timing   a step of r rows takes (r - 1) + K_p + K_w + 1 cycles, exactly (IMH-HW 5.3 with T_p = T_w = T_D = 1; of pairs with
-//          T_D = 1/Lanes): K_p = 3 + Product + ProposeLatency, K_w = WeighLatency + 1 (Folded: WeighLatency + Lanes + 2); the estimate
+// timing   a row every Interval = T cycles; a step of r rows takes (r - 1) T + K_p + K_w + 1 cycles, exactly (IMH-HW 5.3 with
+//          T_p = T_w = T, T_D = 1; of pairs with T_D = 1/Lanes): K_p = 3 + Product + ProposeLatency, K_w = WeighLatency + 1 (Folded: WeighLatency + Lanes + 2); the estimate
 //          follows 6 + Product + Dims (ValueWidth + Extra + 1) cycles (1 + log2 Lanes more with several lanes) behind the last decision, of
 //          a folded chain sooner or later, see imh.cpp. A step waits for an observation, and for the estimate of the
 //          step before the last to be taken. Overlapped: r + W - H cycles; r where n >= 2 W.
-//          ProposeLatency + WeighLatency >= 6
+//          ProposeLatency + WeighLatency >= 6; Interval = 1 where steps overlap
 // golden   mote/hardware/filters/imh.hpp
 // source   IMH-HW figs. 2 and 3, (16) - (17); IMH-OPT fig. 2
 module mote_imh #(
@@ -37,6 +37,7 @@ module mote_imh #(
     parameter int unsigned Parents        = 1,
     parameter int unsigned Folded         = 0,
     parameter int unsigned Overlapped     = 0,
+    parameter int unsigned Interval       = 1,
     parameter int unsigned Dims           = 1,
     parameter int unsigned ValueWidth     = 18,
     parameter int unsigned CarryWidth     = 0,
@@ -123,25 +124,26 @@ module mote_imh #(
   end
 
   // ---- steps: each begins when the one before has decided all, or enough
-  logic begins, issues_q, issue_last, decided_last, free, unused_none_left;
+  logic begins, issuing_q, issues, issue_last, decided_last, free, unused_none_left;
   logic [15:0] step;
   logic [ObsWidth-1:0] observed;
   count_t issue_q, slots;
-  assign issue_last = issues_q && issue_q == last_row_q;
+  assign issue_last = issues && issue_q == last_row_q;
   mote_steps #(.ObsWidth(ObsWidth)) u_steps (
       .clk_i, .rst_ni, .start_i, .steps_i, .busy_o, .starts_o(starts_run),
       .obs_valid_i, .obs_ready_o, .obs_i,
       .free_i(free), .begins_o(begins), .none_left_o(unused_none_left), .t_o(step), .obs_o(observed),
       .est_taken_i(est_valid_o && est_ready_i), .est_last_i(est_last_o));
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) issues_q <= 1'b0;
-    else if (begins) issues_q <= 1'b1;
-    else if (issue_last) issues_q <= 1'b0;
+    if (!rst_ni) issuing_q <= 1'b0;
+    else if (begins) issuing_q <= 1'b1;
+    else if (issue_last) issuing_q <= 1'b0;
   end
   always_ff @(posedge clk_i) begin
     if (begins) issue_q <= '0;
-    else if (issues_q) issue_q <= issue_q + (At + 1)'(1);
+    else if (issues) issue_q <= issue_q + (At + 1)'(1);
   end
+  mote_turn #(.Interval(Interval)) u_turn (.clk_i, .first_i(begins), .asks_i(issuing_q), .turn_o(issues));
   logic bank_q, read_bank;
   if (Overlapped == 1) begin : gen_overlapped
     localparam int unsigned GapWidth = $clog2(Window + 1);
@@ -172,7 +174,7 @@ module mote_imh #(
         gap_q   <= GapWidth'(HeadWidth'(Window) - head);
       end
       if (begins) window_q <= first_q;
-      else if (issues_q && window_q != n_q) window_q <= window_q + (At + 1)'(1);
+      else if (issues && window_q != n_q) window_q <= window_q + (At + 1)'(1);
       slots_q <= window_q;
       if (proposes_next) begin
         t_o   <= step;
@@ -193,13 +195,13 @@ module mote_imh #(
 
   // ---- parents
   logic parent_valid, valid_log;
-  mote_valid #(.Depth(ParentLatency)) u_parent_valid (.clk_i, .rst_ni, .valid_i(issues_q), .valid_o(parent_valid));
+  mote_valid #(.Depth(ParentLatency)) u_parent_valid (.clk_i, .rst_ni, .valid_i(issues), .valid_o(parent_valid));
   mote_parents #(
       .Lanes(Lanes), .Choice(Parents), .Width(StateWidth), .CountWidth(At + 1), .SlotWidth(SlotWidth), .Seed(Seed),
       .Stream(Stream), .StreamStep(Streams), .Product(Product)
   ) u_parents (
       .clk_i, .rst_ni,
-      .advance_i(issues_q),
+      .advance_i(issues),
       .n_i(slots),
       .bank_i(read_bank),
       .state_o(propose_state_o),
@@ -221,7 +223,7 @@ module mote_imh #(
   mote_valid #(.Depth(WeighLatency)) u_weighed_valid (
       .clk_i, .rst_ni, .valid_i(weigh_valid_o), .valid_o(weighed_valid));
   mote_valid #(.Depth(ParentLatency + ModelLatency - 5)) u_log_valid (
-      .clk_i, .rst_ni, .valid_i(issues_q), .valid_o(valid_log));
+      .clk_i, .rst_ni, .valid_i(issues), .valid_o(valid_log));
   mote_valid #(.Depth(ChainLatency)) u_decides (
       .clk_i, .rst_ni, .valid_i(weighed_valid), .valid_o(decides));
   mote_delay #(.Width(Lanes * StateWidth), .Depth(WeighLatency + Tap)) u_tapped_state (

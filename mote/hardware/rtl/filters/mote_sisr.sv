@@ -10,7 +10,7 @@
 //
 // formats  states: Dims signed words of ValueWidth bits; log weights: signed, octaves, 10 fraction bits
 // range    Lanes 1, 2, 4 or 8; n_i a multiple of it, from Lanes to 2^At; At >= 6. Registers are read at start_i
-// timing   a particle a cycle and lane, as long as there are parents; a step's first are there 13 + 3 Product cycles (with several
+// timing   a particle every Interval cycles and lane, from the step's first chance on, as long as there are parents; a step's first are there 13 + 3 Product cycles (with several
 //          lanes 14 + 3 Product + 2 log2 Lanes) after its last state left weigh, or when its first row with children is
 //          reached. The golden model counts cycles exactly
 // golden   mote/hardware/filters/sisr.hpp
@@ -18,6 +18,7 @@
 module mote_sisr #(
     parameter int unsigned Lanes          = 1,
     parameter int unsigned Scheme         = 0,
+    parameter int unsigned Interval       = 1,
     parameter int unsigned Dims           = 1,
     parameter int unsigned ValueWidth     = 18,
     parameter int unsigned ObsWidth       = 32,
@@ -79,7 +80,7 @@ module mote_sisr #(
   localparam int unsigned LaneBits = $clog2(Lanes);
   localparam int unsigned LaneWidth = Lanes > 1 ? LaneBits : 1;
   count_t n_q, issue_left_q, weigh_left_q;
-  logic starts, begins, begun_q, issues_q, issues, issues_last, first_q, parent_valid, unused_none_left;
+  logic starts, begins, begun_q, issues_q, turn, issues, issues_last, first_q, parent_valid, unused_none_left;
   logic weighed_valid, weighed_last, weighed_first_q;
   logic [Lanes*At-1:0] parent;
   mote_steps #(.ObsWidth(ObsWidth)) u_steps (
@@ -87,7 +88,8 @@ module mote_sisr #(
       .obs_valid_i, .obs_ready_o, .obs_i,
       .free_i(weighed_last), .begins_o(begins), .none_left_o(unused_none_left), .t_o, .obs_o,
       .est_taken_i(est_valid_o && est_ready_i), .est_last_i(est_last_o));
-  assign issues = issues_q && (first_q || parent_valid);
+  mote_turn #(.Interval(Interval)) u_turn (.clk_i, .first_i(begun_q), .asks_i(issues_q), .turn_o(turn));
+  assign issues = turn && (first_q || parent_valid);
   assign issues_last = issues && issue_left_q == (At + 1)'(1);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -196,7 +198,7 @@ module mote_sisr #(
       .total_i(total),
       .more_i(estimates_left_q != '0),
       .valid_o(parent_valid),
-      .ready_i(issues_q && !first_q),
+      .ready_i(turn && !first_q),
       .parent_o(parent));
 
   // ---- estimates
