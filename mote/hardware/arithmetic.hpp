@@ -49,8 +49,8 @@ struct Product {
   Circuit circuit() const;
 };
 
-/// y = a b + c, exact, all signed: what products take turns at where a row comes every few clocks. A product's rounding is
-/// its c.
+/// y = a b + c, exact, all signed: what products take turns at where a row comes every few clocks. A product's rounding
+/// is its c.
 ///
 /// shape   y_width: enough for the result, at most 62
 struct MultiplyAdd {

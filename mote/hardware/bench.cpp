@@ -89,7 +89,8 @@ extern "C" void run(const std::int64_t* const* in, std::int64_t* const* out, std
   for (std::size_t t = 0; t < rows; ++t) {
     top.clk_i = 0;
 )" + for_ports(circuits, 'i', driven) +
-         entering(circuits) + "    top.eval();\n    top.clk_i = 1;\n    top.eval();\n" + for_ports(circuits, 'o', read) + "  }\n}\n";
+         entering(circuits) + "    top.eval();\n    top.clk_i = 1;\n    top.eval();\n" +
+         for_ports(circuits, 'o', read) + "  }\n}\n";
 }
 
 /// A column as it is driven: a word every few clocks, other bits between unless it stands; the last until the slowest

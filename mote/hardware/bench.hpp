@@ -25,8 +25,8 @@ class Bench {
   Bench& operator=(const Bench&) = delete;
   Bench& operator=(Bench&&) = delete;
 
-  /// What each circuit answers to each row, from the state after reset; its latency is taken away. One that takes a row every
-  /// k clocks sees other words between, which must not matter.
+  /// What each circuit answers to each row, from the state after reset; its latency is taken away. One that takes a row
+  /// every k clocks sees other words between, which must not matter.
   ///
   /// shape   inputs[c]: the columns of circuit c, all of one length; a circuit without inputs has no columns
   ///         rows: of every column

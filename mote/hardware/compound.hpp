@@ -22,8 +22,8 @@ struct Wire {
 ///
 /// Every operator starts as soon as its last operand is there; earlier operands wait in delays, which wires share. So
 /// is the latency from inputs to outputs the same on all paths, and one row a clock goes through. With an interval of k
-/// clocks from row to row, costly operators take turns (turns.hpp), also those of compounds within; enters_i tells when a
-/// row goes in, and rows that are under way together have gone in a multiple of k clocks apart. The twin is the same.
+/// clocks from row to row, costly operators take turns (turns.hpp), also those of compounds within; enters_i tells when
+/// a row goes in, and rows that are under way together have gone in a multiple of k clocks apart. The twin is the same.
 ///
 /// cost    the twin: one pass over the columns for each operator
 class Compound {

@@ -27,8 +27,8 @@ std::string phase_text(int interval) {
 
 /// A word by phase; those of phases that nobody has are as the last.
 std::string chosen_text(const std::string& name, int interval, const std::vector<std::pair<int, std::string>>& words) {
-  const bool same = std::all_of(words.begin(), words.end(),
-                                [&](const auto& one) { return one.second == words.front().second; });
+  const bool same =
+      std::all_of(words.begin(), words.end(), [&](const auto& one) { return one.second == words.front().second; });
   if (same) return "  assign " + name + " = " + words.front().second + ";\n";
   const std::string bits = std::to_string(ceil_log2(static_cast<std::uint64_t>(interval)));
   std::string text = "  always_comb\n    case (phase_q)\n";
@@ -225,7 +225,8 @@ Circuit Compound::circuit() const {
   }
   const std::string parameters = tables.empty() ? "" : " #(\n" + tables + "\n)";
   const std::string sheet = "// " + name_ + ": latency " + std::to_string(whole.latency) + ", one row " +
-                            (whole.interval == 1 ? "a clock" : "in " + std::to_string(whole.interval) + " clocks") + ".\n";
+                            (whole.interval == 1 ? "a clock" : "in " + std::to_string(whole.interval) + " clocks") +
+                            ".\n";
   whole.sources.push_back({name_,
                            sheet + "module " + name_ + parameters + " (\n" + ports + "\n);\n" + text() + "endmodule\n",
                            c_function()});

@@ -63,9 +63,7 @@ Circuit Piecewise::circuit() const {
   for (const Coefficients& c : table_)
     memory.words.push_back((shape_.degree == 1 ? 0 : field(c.c2, c2) << (c0 + c1)) | (field(c.c1, c1) << c0) |
                            field(c.c0, c0));
-  const int folding = shape_.fold == Fold::kPlain ? 0 : shape_.fold == Fold::kMirrored ? 1 : 2;
-  const int latency =
-      folding + (octaves_ ? 3 : 0) + 2 + shape_.degree * (product_latency(shape_.multiplier, delta_bits_) + 1) + 1;
+  const int latency = cell_latency() + shape_.degree * (product_latency(shape_.multiplier, delta_bits_) + 1) + 1;
   return {"mote_piecewise",
           {parameter("XSigned", shape_.x.sign), parameter("XWidth", shape_.x.width()),
            parameter("Fold", static_cast<int>(shape_.fold)), parameter("Centre", shape_.centre),
@@ -81,6 +79,43 @@ Circuit Piecewise::circuit() const {
           {std::move(memory)},
           {},
           Sharing::kAlike};
+}
+
+int Piecewise::cell_latency() const {
+  const int folding = shape_.fold == Fold::kPlain ? 0 : shape_.fold == Fold::kMirrored ? 1 : 2;
+  return folding + (octaves_ ? 3 : 0) + 2;
+}
+
+std::vector<Format> PiecewiseCell::formats() const {
+  const auto [c0, c1, c2] = unit.widths();
+  return {{true, c0 - 1, 0}, {true, c1 - 1, 0}, {true, c2 - 1, 0}, {true, unit.delta_bits_ - 1, 0}, {false, 1, 0}};
+}
+
+void PiecewiseCell::compute(Columns in, Results out) const {
+  for (std::size_t i = 0; i < out[0].size(); ++i) {
+    const auto [u, negative] = unit.place_of(in[0][i]);
+    const auto [entry, delta] = unit.cell_of(u, negative);
+    const auto& [c0, c1, c2] = unit.table_[entry];
+    out[0][i] = c0;
+    out[1][i] = c1;
+    out[2][i] = unit.shape_.degree == 1 ? 0 : c2;
+    out[3][i] = delta;
+    out[4][i] = negative ? 1 : 0;
+  }
+}
+
+/// Parameters and table are the unit's, but for what it makes of the polynomial.
+Circuit PiecewiseCell::circuit() const {
+  Circuit cell = unit.circuit();
+  cell.module = "mote_piecewise_cell";
+  std::erase_if(cell.parameters, [](const Parameter& one) {
+    return one.name == "Guard" || one.name == "YSigned" || one.name == "YWidth" || one.name == "Logic";
+  });
+  const std::vector<Format> words = formats();
+  cell.outputs = {port("c0_o", words[0]), port("c1_o", words[1]), port("c2_o", words[2]), port("delta_o", words[3]),
+                  port("side_o", words[4])};
+  cell.latency = unit.cell_latency();
+  return cell;
 }
 
 }  // namespace mote::hardware

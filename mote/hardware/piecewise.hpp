@@ -73,6 +73,7 @@ class Piecewise {
 
  private:
   friend class PiecewiseFit;
+  friend struct PiecewiseCell;
 
   struct Place {
     std::uint64_t u;
@@ -107,6 +108,7 @@ class Piecewise {
   }
 
   Widths widths() const;
+  int cell_latency() const;
 
   PiecewiseShape shape_;
   std::vector<Coefficients> table_;
@@ -114,6 +116,18 @@ class Piecewise {
   int delta_bits_;
   int region_bits_;
   bool octaves_, sides_, odd_;
+};
+
+/// The first half of a unit: (c0, c1, c2, d, side) of x, the polynomial c0 + (c1 + c2 d) d of its segment, d the place
+/// in it in units of 2^-delta_bits; side is 1 where x is below the centre. The golden twin of mote_piecewise_cell.
+struct PiecewiseCell {
+  Piecewise unit;
+
+  /// Of the words, in their order; the side has a bit.
+  std::vector<Format> formats() const;
+  bool odd() const { return unit.odd_; }
+  void compute(Columns in, Results out) const;
+  Circuit circuit() const;
 };
 
 /// What a fit may choose from, and how good it must be.

@@ -84,7 +84,35 @@ Signal Sketch::magnitude(const Signal& a, const Signal& sign_of_a) {
 }
 
 Signal Sketch::table(const std::function<double(double)>& function, const Signal& a, const Format& y, Fold fold) {
-  return op(fit_piecewise(function, a.format, y, fold, 0, {1.0, 2, multiplier_}), y, a);
+  return polynomial(fit_piecewise(function, a.format, y, fold, 0, {1.0, 2, multiplier_}), a);
+}
+
+/// Where operators take turns, by Horner's rule on multipliers that add: what mote_piecewise does by its own.
+Signal Sketch::polynomial(const Piecewise& unit, const Signal& a) {
+  const Format& y = unit.shape().y;
+  if (compound_.interval() == 1) return op(unit, y, a);
+  const PiecewiseCell cell{unit};
+  const std::vector<Format> formats = cell.formats();
+  const Signal c0 = op(cell, formats[0], a);
+  const auto word = [&](std::size_t k) { return Signal{{c0.wire.node, c0.wire.port + k}, formats[k]}; };
+  const Signal delta = word(3);
+  const int places = delta.format.width();
+  // factor d 2^-places + c, of which `dropped` bits fall off
+  const auto line = [&](const Signal& factor, const Signal& c, int dropped) {
+    const Signal lifted = convert(c, {true, c.format.integer, places}, {Rounding::kDown, Overflow::kWrap});
+    const int width = std::max(factor.format.width() + places, lifted.format.width()) + 1;
+    const Format whole{true, width - 1 - places - dropped, places + dropped};
+    const Signal sum = op(MultiplyAdd{factor.format.width(), places, lifted.format.width(), width, multiplier_}, whole,
+                          factor, delta, lifted);
+    return convert(sum, {true, whole.integer, 0}, {Rounding::kDown, Overflow::kWrap});
+  };
+  const Signal slope = unit.shape().degree == 1 ? word(1) : line(word(2), word(1), 0);
+  const Signal kept = line(slope, c0, unit.shape().guard);
+  const Format bare{y.sign, y.integer + y.fraction, 0};
+  const Signal result = cell.odd()
+                            ? negate_if(word(4), kept, bare)
+                            : op(Finished{kept.format, bare, {Rounding::kDown, Overflow::kSaturate}}, bare, kept);
+  return {result.wire, y};
 }
 
 }  // namespace mote::hardware

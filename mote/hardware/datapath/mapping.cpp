@@ -172,6 +172,7 @@ Signal Mapping::tabulated(Id id) {
   const Fused& one = fused_.at(id);
   const Format& y = precision_.formats[id];
   const auto partner = partner_of(id);
+  if (const Piecewise* unit = one.unit.piecewise()) return sketch_.polynomial(*unit, signal(one.source));
   if (!partner) return sketch_.op(one.unit, y, signal(one.source));
   const LookupPair both{*one.unit.lookup()};
   const Signal first = sketch_.op(both, y, signal(one.source), signal(fused_.at(*partner).source));

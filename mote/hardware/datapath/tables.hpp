@@ -29,6 +29,8 @@ class FunctionTable {
   }
   /// The table of all values, if it is one.
   const Lookup* lookup() const { return std::get_if<Lookup>(&unit_); }
+  /// The polynomials, if it is those.
+  const Piecewise* piecewise() const { return std::get_if<Piecewise>(&unit_); }
   /// About what it takes.
   int cost() const;
 

@@ -136,7 +136,28 @@ PartCost part_cost(const Circuit& circuit) {
   const std::string folder = scratch.path().string() + "/";
   write_bench(folder, "core", {circuit});
   const auto [area, path] = synthesised(folder, "core");
-  return {area, path.ns};
+  const PortPaths ports = port_paths(read_text(folder + "netlist.json"), "core");
+  const auto slowest = [](const std::map<std::string, double>& of, const auto& takes) {
+    double latest = 0;
+    for (const auto& [port, ns] : of)
+      if (takes(port)) latest = std::max(latest, ns);
+    return latest;
+  };
+  // a filter has other ports too, and log weights have a path of their own
+  const auto port_of = [&](const std::vector<Port>& of, const char* kind, const char* name) {
+    for (std::size_t p = 0; p < of.size(); ++p)
+      if (of[p].name == name) return kind + std::string("0_") + std::to_string(p);
+    return std::string();
+  };
+  const std::string log = port_of(circuit.inputs, "i", "weigh_log_i");
+  const std::string proposed = port_of(circuit.inputs, "i", "propose_state_i");
+  const std::string parents = port_of(circuit.outputs, "o", "propose_state_o");
+  const std::string words = port_of(circuit.outputs, "o", "propose_words_o");
+  const bool filter = !log.empty();
+  return {area, path.ns,
+          slowest(ports.to_output, [&](const std::string& p) { return !filter || p == parents || p == words; }),
+          slowest(ports.from_input, [&](const std::string& p) { return !filter || p == proposed; }),
+          slowest(ports.from_input, [&](const std::string& p) { return p == log; })};
 }
 
 Cost cost_of_parts(const Machine& machine, const PartCost& propose, const PartCost& weigh, const PartCost& filter) {
@@ -147,7 +168,9 @@ Cost cost_of_parts(const Machine& machine, const PartCost& propose, const PartCo
   const Area area{sum(&Area::lut), sum(&Area::ff), sum(&Area::dsp), sum(&Area::bram18)};
   Cost cost{"XC7A100T-1 by the sum of parts after synthesis", area.lut, area.ff, area.dsp, area.bram18};
   cost.iob = machine.pins();
-  cost.fmax_mhz = clock_of_path(std::max({propose.path_ns, weigh.path_ns, filter.path_ns}));
+  cost.fmax_mhz = clock_of_path(
+      std::max({propose.path_ns, weigh.path_ns, filter.path_ns, filter.leaving_ns + propose.coming_ns,
+                propose.leaving_ns + std::max(filter.coming_ns, weigh.coming_ns), weigh.leaving_ns + filter.log_ns}));
   cost.power_mw = power_mw(area, *cost.fmax_mhz);
   return cost;
 }

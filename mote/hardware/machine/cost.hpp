@@ -43,15 +43,19 @@ Circuit filter_alone(const Machine& machine);
 /// A part of a circuit, synthesised by itself on xc7.
 struct PartCost {
   Area area;
-  double path_ns = 0;  ///< its slowest path, cells only
+  double path_ns = 0;  ///< its slowest path from register to register, cells only
+  /// Of paths that go on in other parts: the beginning of the slowest that leaves, the end of the slowest that comes
+  /// in. A filter's are those to and from proposals.
+  double leaving_ns = 0, coming_ns = 0;
+  double log_ns = 0;  ///< of a filter: the end of paths that come in with log weights
 };
 
 /// error   Refusal (kOutsideTool) when yosys is missing or fails
 /// cost    1 to 20 s
 PartCost part_cost(const Circuit& circuit);
 
-/// What a machine takes by its parts: the sum of their areas, pipelines once a lane, and the slowest of their paths; on
-/// xc7. What is shared, or cut short, where parts meet is not seen.
+/// What a machine takes by its parts: the sum of their areas, pipelines once a lane, and the slowest of their paths and
+/// of those from one into the next; on xc7. What is shared, or cut short, where parts meet is not seen.
 Cost cost_of_parts(const Machine& machine, const PartCost& propose, const PartCost& weigh, const PartCost& filter);
 
 /// Power of a 7-series device that is busy all the time: an estimate, not a measurement.

@@ -33,119 +33,49 @@ module mote_piecewise #(
     output logic [YWidth-1:0] y_o
 );
 
-  localparam int Regions = UWidth - Bottom + 1;
-  localparam int RegionBits = $clog2(Regions);
-  localparam int AddressWidth = SegmentBits + RegionBits + (Fold == 1 ? 1 : 0);
   localparam int Product = Logic ? (DeltaBits > 2 ? $clog2(DeltaBits) : 1) : 2;
   localparam int SlopeWidth = Degree == 1 ? C1Width : (C1Width > C2Width ? C1Width : C2Width) + 1;
   localparam int SumWidth = (C0Width > SlopeWidth ? C0Width : SlopeWidth) + 1;
   localparam int ResultWidth = SumWidth - Guard + 1;
-  localparam int WordWidth = C0Width + C1Width + (Degree == 1 ? 0 : C2Width);
-  localparam int Known = (Regions > 1 ? 3 : 0) + 2 + Degree * (Product + 1);  // clocks from u to the sum
+  localparam int Known = Degree * (Product + 1);  // clocks from the coefficients to the sum
 
-  // The place from the centre, and the side of it.
-  logic [UWidth-1:0] u;
+  // The segment, its coefficients and the place in it.
+  logic signed [C0Width-1:0] c0_cell;
+  logic signed [C1Width-1:0] c1_cell;
+  logic signed [C2Width-1:0] c2_cell;
+  logic signed [DeltaBits-1:0] delta;
   logic side;
-  if (Fold == 0) begin : gen_plain
-    assign u = x_i ^ (XSigned ? XWidth'(1) << (XWidth - 1) : '0);
-    assign side = 1'b0;
-  end else if (Fold == 4) begin : gen_mirrored
-    always_ff @(posedge clk_i) begin
-      u <= x_i[XWidth-2:0] ^ {UWidth{x_i[XWidth-1]}};
-      side <= x_i[XWidth-1];
-    end
-  end else begin : gen_folded
-    localparam int Far = XWidth + 2;
-    logic signed [Far-1:0] from_q;
-    logic [Far-1:0] size;
-    assign size = from_q[Far-1] ? -from_q : from_q;
-    always_ff @(posedge clk_i) begin
-      from_q <= Far'($signed({XSigned && x_i[XWidth-1], x_i})) - Far'(Centre);
-      side <= from_q[Far-1];
-      u <= |size[Far-1:UWidth] ? '1 : size[UWidth-1:0];
-    end
-  end
-
-  // The segment, as an address, and the place in it.
-  logic [AddressWidth-1:0] address;
-  logic [DeltaBits-1:0] place;
-  if (Regions == 1) begin : gen_uniform
-    logic [UWidth+DeltaBits-1:0] wide;
-    assign wide = {u, {DeltaBits{1'b0}}};
-    assign place = wide[UWidth+DeltaBits-SegmentBits-1-:DeltaBits];
-    logic unused_bits;
-    assign unused_bits = ^wide;
-    if (Fold == 1) begin : gen_sides
-      assign address = {side, u[UWidth-1-:SegmentBits]};
-    end else begin : gen_one
-      assign address = u[UWidth-1-:SegmentBits];
-    end
-  end else begin : gen_octaves
-    localparam int ShiftBits = RegionBits + 2;
-    localparam int Field = UWidth - 1 + SegmentBits + DeltaBits;  // with zeros enough behind
-    logic [RegionBits-1:0] region, region_q, region_qq;
-    logic [ShiftBits-1:0] shift;
-    logic [UWidth-1:0] u_q, coarse_q, fine;
-    logic [1:0] fine_q;
-    logic [Field-1:0] field;
-    always_comb begin
-      region = '0;
-      for (int r = 1; r < Regions; r++) if (u[Bottom+r-1]) region = RegionBits'(r);
-    end
-    assign shift = ShiftBits'(UWidth - Bottom) - (region_q == '0 ? ShiftBits'(1) : ShiftBits'(region_q));
-    assign fine  = coarse_q << fine_q;
-    assign field = {fine[UWidth-2:0], {(SegmentBits + DeltaBits) {1'b0}}};
-    logic unused_bits;
-    assign unused_bits = ^{fine[UWidth-1], field};
-    always_ff @(posedge clk_i) begin
-      region_q <= region;
-      u_q <= u;
-      region_qq <= region_q;
-      coarse_q <= u_q << {shift[ShiftBits-1:2], 2'b00};
-      fine_q <= shift[1:0];
-      place <= field[Field-SegmentBits-1-:DeltaBits];
-    end
-    if (Fold == 1) begin : gen_sides
-      logic side_qq;
-      mote_delay #(
-          .Width(1),
-          .Depth(2)
-      ) side_u (
-          .clk_i,
-          .d_i(side),
-          .d_o(side_qq)
-      );
-      always_ff @(posedge clk_i) address <= {side_qq, region_qq, field[Field-1-:SegmentBits]};
-    end else begin : gen_one
-      always_ff @(posedge clk_i) address <= {region_qq, field[Field-1-:SegmentBits]};
-    end
-  end
+  mote_piecewise_cell #(
+      .XSigned(XSigned),
+      .XWidth(XWidth),
+      .Fold(Fold),
+      .Centre(Centre),
+      .UWidth(UWidth),
+      .Bottom(Bottom),
+      .SegmentBits(SegmentBits),
+      .DeltaBits(DeltaBits),
+      .Degree(Degree),
+      .C0Width(C0Width),
+      .C1Width(C1Width),
+      .C2Width(C2Width),
+      .Table(Table)
+  ) cell_u (
+      .clk_i,
+      .x_i,
+      .c0_o(c0_cell),
+      .c1_o(c1_cell),
+      .c2_o(c2_cell),
+      .delta_o(delta),
+      .side_o(side)
+  );
 
   // The polynomial.
-  logic [WordWidth-1:0] word;
-  logic signed [DeltaBits-1:0] delta;  // when the word arrives
-  mote_rom #(
-      .AddressWidth(AddressWidth),
-      .Width(WordWidth),
-      .File(Table)
-  ) rom_u (
-      .clk_i,
-      .address_i(address),
-      .word_o(word)
-  );
-  mote_delay #(
-      .Width(DeltaBits),
-      .Depth(2)
-  ) delta_u (
-      .clk_i,
-      .d_i({~place[DeltaBits-1], place[DeltaBits-2:0]}),
-      .d_o(delta)
-  );
-
   logic signed [SlopeWidth-1:0] slope;
   logic signed [DeltaBits-1:0] delta_of_slope;
   if (Degree == 1) begin : gen_line
-    assign slope = word[C0Width+:C1Width];
+    logic unused_bend;
+    assign unused_bend = ^c2_cell;
+    assign slope = c1_cell;
     assign delta_of_slope = delta;
   end else begin : gen_parabola
     logic signed [C2Width+DeltaBits-1:0] bend;
@@ -158,7 +88,7 @@ module mote_piecewise #(
         .Logic (Logic)
     ) bend_u (
         .clk_i,
-        .a_i(word[C0Width+C1Width+:C2Width]),
+        .a_i(c2_cell),
         .b_i(delta),
         .p_o(bend)
     );
@@ -167,7 +97,7 @@ module mote_piecewise #(
         .Depth(Product)
     ) c1_u (
         .clk_i,
-        .d_i(word[C0Width+:C1Width]),
+        .d_i(c1_cell),
         .d_o(c1)
     );
     mote_delay #(
@@ -201,7 +131,7 @@ module mote_piecewise #(
       .Depth(Product * Degree + Degree - 1)
   ) c0_u (
       .clk_i,
-      .d_i(word[C0Width-1:0]),
+      .d_i(c0_cell),
       .d_o(c0)
   );
   always_ff @(posedge clk_i) sum_q <= SumWidth'(c0) + SumWidth'($signed(rise[SlopeWidth+DeltaBits-1:DeltaBits]));

@@ -79,8 +79,8 @@ class ImhCircuit : public ::testing::Test {
   Bench<typename Circuit::Top> bench_{with_tables(Circuit::model().formats), kLanes};
 };
 using Circuits = ::testing::Types<LocalLevelCircuit, GrowthCircuit, TwoPrivateChains, FourBankedChains,
-                                  FourSharedChains, EveryThirdCycle, TwoChainsEverySecondCycle, TwoPairsBeforeOneChain, FourPairsBeforeOneChain, OverlappedSteps,
-                                  TwoChainsOverlapped, FourPairsOverlapped>;
+                                  FourSharedChains, EveryThirdCycle, TwoChainsEverySecondCycle, TwoPairsBeforeOneChain,
+                                  FourPairsBeforeOneChain, OverlappedSteps, TwoChainsOverlapped, FourPairsOverlapped>;
 TYPED_TEST_SUITE(ImhCircuit, Circuits);
 
 TYPED_TEST(ImhCircuit, EqualsTheGoldenModelAtEverySize) {

@@ -230,13 +230,13 @@ static inline void mote_cordic(const mote_cordic_parameters *p, int64_t x, int64
 // ---- a function as polynomials on segments: the place u of x, its segment, the polynomial there
 
 typedef struct {
-  int XSigned, XWidth, Fold, Centre, UWidth, Bottom, SegmentBits, DeltaBits, Degree, C0Width, C1Width, C2Width, Guard,
-      YSigned, YWidth, Logic;
+  int XSigned, XWidth, Fold, Centre, UWidth, Bottom, SegmentBits, DeltaBits, Degree, C0Width, C1Width, C2Width;
   const mote_entry *Table;
-} mote_piecewise_parameters;
+} mote_piecewise_cell_parameters;
 
-static inline void mote_piecewise(const mote_piecewise_parameters *p, int64_t x, int64_t *y) {
-  enum { kPlain = 0, kSides = 1, kOdd = 2, kMirrored = 4 };
+static inline void mote_piecewise_cell(const mote_piecewise_cell_parameters *p, int64_t x, int64_t *c0, int64_t *c1,
+                                       int64_t *c2, int64_t *delta, int64_t *side) {
+  enum { kPlain = 0, kSides = 1, kMirrored = 4 };
   uint64_t u;
   int negative = 0;
   if (p->Fold == kPlain) {
@@ -257,14 +257,31 @@ static inline void mote_piecewise(const mote_piecewise_parameters *p, int64_t x,
   const uint64_t field = lost == 64 ? 0 : u << lost;
   const uint64_t segment = field >> (64 - p->SegmentBits);
   const uint64_t place = (field << p->SegmentBits) >> (64 - p->DeltaBits);
-  const int64_t delta = (int64_t)place - (INT64_C(1) << (p->DeltaBits - 1));
-  const uint64_t side = p->Fold == kSides && negative ? UINT64_C(1) << mote_ceil_log2((uint64_t)regions) : 0;
-  const mote_entry entry = p->Table[((side + (uint64_t)region) << p->SegmentBits) + segment];
-  const int64_t c0 = mote_field(entry, 0, p->C0Width), c1 = mote_field(entry, p->C0Width, p->C1Width);
-  const int64_t c2 = p->Degree == 1 ? 0 : mote_field(entry, p->C0Width + p->C1Width, p->C2Width);
+  const uint64_t other = p->Fold == kSides && negative ? UINT64_C(1) << mote_ceil_log2((uint64_t)regions) : 0;
+  const mote_entry entry = p->Table[((other + (uint64_t)region) << p->SegmentBits) + segment];
+  *c0 = mote_field(entry, 0, p->C0Width);
+  *c1 = mote_field(entry, p->C0Width, p->C1Width);
+  *c2 = p->Degree == 1 ? 0 : mote_field(entry, p->C0Width + p->C1Width, p->C2Width);
+  *delta = (int64_t)place - (INT64_C(1) << (p->DeltaBits - 1));
+  *side = negative;
+}
+
+typedef struct {
+  int XSigned, XWidth, Fold, Centre, UWidth, Bottom, SegmentBits, DeltaBits, Degree, C0Width, C1Width, C2Width, Guard,
+      YSigned, YWidth, Logic;
+  const mote_entry *Table;
+} mote_piecewise_parameters;
+
+static inline void mote_piecewise(const mote_piecewise_parameters *p, int64_t x, int64_t *y) {
+  enum { kOdd = 2, kMirrored = 4 };
+  const mote_piecewise_cell_parameters cell = {p->XSigned, p->XWidth, p->Fold, p->Centre, p->UWidth, p->Bottom,
+                                               p->SegmentBits, p->DeltaBits, p->Degree, p->C0Width, p->C1Width,
+                                               p->C2Width, p->Table};
+  int64_t c0, c1, c2, delta, side;
+  mote_piecewise_cell(&cell, x, &c0, &c1, &c2, &delta, &side);
   const int64_t slope = c1 + ((c2 * delta) >> p->DeltaBits);
   const int64_t kept = (c0 + ((slope * delta) >> p->DeltaBits)) >> p->Guard;
-  const int64_t exact = negative && (p->Fold == kOdd || p->Fold == kMirrored) ? -kept : kept;
+  const int64_t exact = side && (p->Fold == kOdd || p->Fold == kMirrored) ? -kept : kept;
   *y = mote_resized(exact, 0, p->YSigned, p->YWidth, 0, 0, 1);
 }
 
