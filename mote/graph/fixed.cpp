@@ -48,7 +48,7 @@ std::int64_t select(const FixedOperation& o, const Raw& raw) {
 }
 std::int64_t by_double(const FixedOperation& o, const Raw& raw) {
   std::array<double, 4> values{};
-  for (std::size_t k = 0; k < arity(o.op); ++k) values[k] = from_fixed(raw[k], o.in[k]);
+  for (std::size_t k = 0; k < arity(o.op); ++k) values[k] = o.in[k].value(raw[k]);
   return to_fixed(apply<double>(o.op, values), o.out, o.rounding);
 }
 

@@ -48,7 +48,7 @@ class FixedArithmetic {
   FixedArithmetic(const Graph& graph, FixedPoint point);
 
   Number number(Id id, double value) const { return to_fixed(value, point_.formats[id], Rounding::kNearest); }
-  double value(Id id, Number raw) const { return from_fixed(raw, point_.formats[id]); }
+  double value(Id id, Number raw) const { return point_.formats[id].value(raw); }
   Number compute(Id id, const Vertex& vertex, const std::array<Number, 4>& operands) const {
     return point_.twins->by_op[static_cast<std::size_t>(vertex.op)](operations_[id], operands);
   }

@@ -12,17 +12,15 @@ namespace {
 constexpr Format kSmall{true, 2, 3};  // [-4, 3.875] in steps of 1/8
 
 TEST(Format, SaysWhatItHolds) {
-  EXPECT_EQ(kSmall.bits(), 6);
-  EXPECT_EQ(from_fixed(kSmall.least(), kSmall), -4);
-  EXPECT_EQ(from_fixed(kSmall.most(), kSmall), 3.875);
-  EXPECT_EQ(name_of(kSmall), "s2.3");
-  EXPECT_EQ(name_of({false, 0, 8}), "u0.8");
+  EXPECT_EQ(kSmall.width(), 6);
+  EXPECT_EQ(kSmall.value(kSmall.least()), -4);
+  EXPECT_EQ(kSmall.value(kSmall.greatest()), 3.875);
+  EXPECT_EQ(kSmall.name(), "s2.3");
+  EXPECT_EQ((Format{false, 0, 8}.name()), "u0.8");
 }
 
 TEST(Format, RoundsAndSaturates) {
-  const auto fixed = [](double value, Rounding rounding) {
-    return from_fixed(to_fixed(value, kSmall, rounding), kSmall);
-  };
+  const auto fixed = [](double value, Rounding rounding) { return kSmall.value(to_fixed(value, kSmall, rounding)); };
   EXPECT_EQ(fixed(1.0625, Rounding::kNearest), 1.125) << "halves upwards";
   EXPECT_EQ(fixed(-1.0625, Rounding::kNearest), -1);
   EXPECT_EQ(fixed(1.0625, Rounding::kTruncate), 1);
@@ -39,15 +37,15 @@ TEST(Format, RescalesLikeTheDouble) {
       for (const Rounding rounding : {Rounding::kNearest, Rounding::kTruncate})
         ASSERT_EQ(rescaled(raw, fraction, kSmall, rounding),
                   to_fixed(std::ldexp(static_cast<double>(raw), -fraction), kSmall, rounding));
-  EXPECT_EQ(rescaled(static_cast<Wide>(1) << 100, -40, kSmall, Rounding::kNearest), kSmall.most());
+  EXPECT_EQ(rescaled(static_cast<Wide>(1) << 100, -40, kSmall, Rounding::kNearest), kSmall.greatest());
 }
 
 TEST(Format, IsTheSmallestThatHoldsAnInterval) {
   EXPECT_EQ(format_for({-4, 3.5}, 3), kSmall);
   EXPECT_EQ(format_for({-4, 4}, 3).integer, 3);
   EXPECT_EQ(format_for({0, 0.2}, 8), (Format{false, -2, 8}));
-  EXPECT_EQ(format_for({-kInfinity, kInfinity}, 10, 30).bits(), 30);
-  EXPECT_EQ(format_for({0, 0}, 10).bits(), 1);
+  EXPECT_EQ(format_for({-kInfinity, kInfinity}, 10, 30).width(), 30);
+  EXPECT_EQ(format_for({0, 0}, 10).width(), 1);
   EXPECT_EQ(format_for({-3e5, 1e6}, 24, 40), (Format{true, 20, 19})) << "bits before the point come first";
 }
 
@@ -61,10 +59,10 @@ TEST(Twins, RoundTheExactResult) {
     const Op op = static_cast<Op>(number);
     for (const Rounding rounding : {Rounding::kNearest, Rounding::kTruncate}) {
       const FixedOperation operation{op, out, {a_format, kSmall, a_format, kSmall}, rounding};
-      for (std::int64_t a = a_format.least(); a <= a_format.most(); ++a)
-        for (std::int64_t b = kSmall.least(); b <= kSmall.most(); ++b) {
-          const double x = from_fixed(a, a_format);
-          const double y = from_fixed(b, kSmall);
+      for (std::int64_t a = a_format.least(); a <= a_format.greatest(); ++a)
+        for (std::int64_t b = kSmall.least(); b <= kSmall.greatest(); ++b) {
+          const double x = a_format.value(a);
+          const double y = kSmall.value(b);
           const auto exact = apply<double>(op, {x, y, x, y});
           ASSERT_EQ(rounded_double_twins().by_op[number](operation, {a, b, a, b}), to_fixed(exact, out, rounding))
               << name_of(op) << " of " << x << ", " << y;

@@ -14,17 +14,26 @@ bool holds(const Interval& interval, bool sign, int integer) {
 
 }  // namespace
 
+double Format::step() const { return std::ldexp(1.0, -fraction); }
+
+std::int64_t Format::nearest(double number) const {
+  if (std::isnan(number)) return 0;
+  const double word = std::nearbyint(std::ldexp(number, fraction));
+  if (word >= static_cast<double>(greatest())) return greatest();
+  return std::max(least(), static_cast<std::int64_t>(std::max(word, -0x1p62)));
+}
+
+std::string Format::name() const {
+  return (sign ? "s" : "u") + std::to_string(integer) + "." + std::to_string(fraction);
+}
+
 std::int64_t to_fixed(double value, const Format& format, Rounding rounding) {
   if (std::isnan(value)) return 0;
   const double scaled = std::ldexp(value, format.fraction);
   const double whole = std::floor(rounding == Rounding::kNearest ? scaled + 0.5 : scaled);
   if (whole <= static_cast<double>(format.least())) return format.least();
-  if (whole >= static_cast<double>(format.most())) return format.most();
+  if (whole >= static_cast<double>(format.greatest())) return format.greatest();
   return static_cast<std::int64_t>(whole);
-}
-
-double from_fixed(std::int64_t raw, const Format& format) {
-  return std::ldexp(static_cast<double>(raw), -format.fraction);
 }
 
 std::int64_t rescaled(Wide raw, int fraction, const Format& format, Rounding rounding) {
@@ -37,7 +46,7 @@ std::int64_t rescaled(Wide raw, int fraction, const Format& format, Rounding rou
     const Wide bound = static_cast<Wide>(1) << std::max(0, 126 + shift);
     raw = std::clamp<Wide>(raw, -bound, bound) << std::min(-shift, 126);
   }
-  return static_cast<std::int64_t>(std::clamp<Wide>(raw, format.least(), format.most()));
+  return static_cast<std::int64_t>(std::clamp<Wide>(raw, format.least(), format.greatest()));
 }
 
 Format format_for(const Interval& interval, int fraction, int most) {
@@ -47,10 +56,6 @@ Format format_for(const Interval& interval, int fraction, int most) {
   if (!std::isfinite(interval.low) || !std::isfinite(interval.high)) return {sign, bound, fraction};
   while (!holds(interval, sign, integer)) ++integer;
   return {sign, integer, fraction - std::max(0, integer - bound)};
-}
-
-std::string name_of(const Format& format) {
-  return (format.sign ? "s" : "u") + std::to_string(format.integer) + "." + std::to_string(format.fraction);
 }
 
 }  // namespace mote::graph

@@ -26,7 +26,7 @@ Format format_of_constant(double value, int fraction, int most) {
   Format format = format_for({value, value}, fraction, most);
   const int start = format.fraction;
   const std::int64_t raw = to_fixed(value, format, Rounding::kNearest);
-  while (format.bits() > 1 && format.fraction > -format.integer + 1 &&
+  while (format.width() > 1 && format.fraction > -format.integer + 1 &&
          raw % (std::int64_t{2} << (start - format.fraction)) == 0)
     --format.fraction;
   return format;
@@ -89,10 +89,10 @@ class Search {
     for (Id id = 0; id < graph_.size(); ++id)
       if (used_[id]) order.push_back(id);
     std::stable_sort(order.begin(), order.end(),
-                     [&](Id a, Id b) { return start.formats[a].bits() > start.formats[b].bits(); });
+                     [&](Id a, Id b) { return start.formats[a].width() > start.formats[b].width(); });
     for (const Id id : order)
       for (const int stride : {4, 2, 1})
-        while (start.formats[id].bits() - (start.formats[id].fraction - fraction_[id]) > stride &&
+        while (start.formats[id].width() - (start.formats[id].fraction - fraction_[id]) > stride &&
                passes_with(id, fraction_[id] - stride)) {
         }
   }
@@ -137,7 +137,7 @@ std::size_t total_bits(const Graph& graph, std::span<const Id> outputs, const Fi
   const std::vector<bool> used = reached(graph, outputs);
   std::size_t sum = 0;
   for (Id id = 0; id < graph.size(); ++id)
-    if (used[id]) sum += static_cast<std::size_t>(point.formats[id].bits());
+    if (used[id]) sum += static_cast<std::size_t>(point.formats[id].width());
   return sum;
 }
 

@@ -76,10 +76,10 @@ TEST(Words, AreTheSmallestThatPass) {
   EXPECT_TRUE(words.within_budget);
   EXPECT_EQ(words.point.formats[x], (Format{true, 2, 7})) << "2^-7 is the first below 0.01";
   EXPECT_EQ(words.ratio, 1 + std::ldexp(1.0, -7));
-  EXPECT_LE(words.point.formats[sum].bits(), 2) << "nobody reads its bits";
-  EXPECT_LE(words.point.formats[graph.constant(0.5)].bits(), 2);
+  EXPECT_LE(words.point.formats[sum].width(), 2) << "nobody reads its bits";
+  EXPECT_LE(words.point.formats[graph.constant(0.5)].width(), 2);
   EXPECT_LT(total_bits(graph, outputs, words.point), 16U);
-  EXPECT_GT(words.point.formats[unused].bits(), 0);
+  EXPECT_GT(words.point.formats[unused].width(), 0);
   EXPECT_FALSE(search_words(graph, outputs, known, error, {.budget = 1e-9}).within_budget);
 }
 

@@ -1,8 +1,10 @@
 #pragma once
-/// Numbers in fixed point: what a bus of a circuit holds, and how a number moves from one format to another.
+/// Numbers in fixed point: what a bus of a circuit holds, in a format of the graph, and how a number moves from one to
+/// another.
 
 #include <cstdint>
-#include <string>
+
+#include "mote/graph/format.hpp"
 
 namespace mote::hardware {
 
@@ -21,27 +23,7 @@ enum class Overflow : bool {
   kSaturate  ///< the closest number that the format holds
 };
 
-/// A fixed-point format: `integer` bits before the point, `fraction` after it, and a sign bit.
-///
-/// shape   width() from 1 to 62; integer or fraction may be negative: (true, -3, 20) holds |x| < 1/8
-struct Format {
-  bool sign = true;
-  int integer = 0;
-  int fraction = 0;
-
-  constexpr int width() const { return integer + fraction + (sign ? 1 : 0); }
-  constexpr Word greatest() const { return (Word{1} << (integer + fraction)) - 1; }
-  constexpr Word least() const { return sign ? -(Word{1} << (integer + fraction)) : 0; }
-  /// The distance of two neighbours:  2^-fraction.
-  double step() const;
-  double value(Word word) const { return static_cast<double>(word) * step(); }
-  /// The word nearest to a number, ties to even; numbers out of range saturate, NaN is 0.
-  Word nearest(double number) const;
-  /// "s5.12" or "u0.32".
-  std::string name() const;
-
-  friend constexpr bool operator==(const Format&, const Format&) = default;
-};
+using graph::Format;
 
 /// How a result that is exact becomes one of a format.
 struct Finish {

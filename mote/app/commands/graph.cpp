@@ -93,7 +93,7 @@ void print(const Found& found) {
     fmt::print("{:<8}{:<30}{:>26}{:>26}", fmt::format("v{}", id), label(found, id), shown(found.ranges.seen[id]),
                shown(found.ranges.kept[id]));
     if (found.words)
-      fmt::print("{:>10}{:>6}", graph::name_of(found.words->point.formats[id]), found.words->point.formats[id].bits());
+      fmt::print("{:>10}{:>6}", found.words->point.formats[id].name(), found.words->point.formats[id].width());
     fmt::print("\n");
   }
   if (!found.words) return;

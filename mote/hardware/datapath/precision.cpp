@@ -226,16 +226,15 @@ class Analysis {
     if (is_draw(v)) return {false, 1, std::clamp(fraction, 4, kPriorBits)};
     if (v.op == Op::kConstant) return constant_format(v.value, fraction);
     const auto by = [&](const Interval& range) { return graph::format_for(range, fraction, kMostBits); };
-    graph::Format format = by(v.op == Op::kFloor ? ranges.analysed[id] : ranges.kept[id]);
-    if (const graph::Format safe = by(ranges.analysed[id]); safe.bits() <= format.bits() + 2) format = safe;
-    if (is_function(v.op)) format.fraction -= std::clamp(format.bits() - kMostOfFunction, 0, format.fraction);
-    return {format.sign, format.integer, format.fraction};
+    Format format = by(v.op == Op::kFloor ? ranges.analysed[id] : ranges.kept[id]);
+    if (const Format safe = by(ranges.analysed[id]); safe.width() <= format.width() + 2) format = safe;
+    if (is_function(v.op)) format.fraction -= std::clamp(format.width() - kMostOfFunction, 0, format.fraction);
+    return format;
   }
 
   /// A constant in as few bits as say the same at that fraction.
   static Format constant_format(double value, int fraction) {
-    const auto held = graph::format_for({value, value}, fraction, kMostBits);
-    Format format{held.sign, held.integer, held.fraction};
+    Format format = graph::format_for({value, value}, fraction, kMostBits);
     Word word = format.nearest(value);
     while (format.width() > 1 && word != 0 && word % 2 == 0) {
       word /= 2;
@@ -257,9 +256,9 @@ class Analysis {
           fraction = std::max(fraction, fraction_of(id, more_bits));
       }
       range.low = std::min(range.low, -0x1p-30);  // a sign always
-      const graph::Format format = graph::format_for(range, fraction, kMostBits);
+      const Format format = graph::format_for(range, fraction, kMostBits);
       all.states.push_back({true, format.integer, format.fraction});
-      width = std::max(width, format.bits());
+      width = std::max(width, format.width());
     }
     for (std::size_t d = 0; d < dims; ++d) {
       all.states[d].fraction += width - all.states[d].width();
