@@ -55,6 +55,7 @@ class Compound {
 
  private:
   using Twin = std::function<void(Columns, Results)>;
+  class Text;
   struct Node {
     Circuit circuit;  ///< an input and a constant have no module, one output and no twin; wires gathered have a twin
     Twin twin;
@@ -74,7 +75,6 @@ class Compound {
   Wire gathered(const std::vector<Port>& ports, const std::vector<Wire>& wires);
   int latency() const;
   std::vector<std::size_t> owners() const;
-  std::string text() const;
   std::string c_function() const;
 
   std::string name_;

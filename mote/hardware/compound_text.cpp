@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "mote/hardware/c_call.hpp"
@@ -14,8 +14,6 @@ std::string wire_name(const Wire& wire) { return "w" + std::to_string(wire.node)
 std::string declaration(const std::string& name, int width) {
   return "  logic [" + std::to_string(width - 1) + ":0] " + name + ";\n";
 }
-
-std::string instance_name(std::size_t node) { return "u" + std::to_string(node); }
 
 /// What takers of an instance choose with: the clock of their row.
 std::string phase_text(int interval) {
@@ -46,26 +44,6 @@ std::string widened(const std::string& word, const Port& port, int width) {
 /// The name of the parameter by which the file of a table comes in from outside.
 std::string table_name(std::size_t node, const Memory& memory) { return "U" + std::to_string(node) + memory.parameter; }
 
-/// The wires of a compound as text, with delays where a reader comes later than the writer is ready.
-class Writer {
- public:
-  /// The name of the wire `clocks` later.
-  std::string delayed(const Wire& wire, int width, int clocks) {
-    if (clocks == 0) return wire_name(wire);
-    const std::string name = wire_name(wire) + "_d" + std::to_string(clocks);
-    if (!std::exchange(delays_[name], true))
-      body += declaration(name, width) + "  mote_delay #(.Width(" + std::to_string(width) + "), .Depth(" +
-              std::to_string(clocks) + ")) " + name + "_u (.clk_i(clk_i), .d_i(" + wire_name(wire) + "), .d_o(" + name +
-              "));\n";
-    return name;
-  }
-
-  std::string body;
-
- private:
-  std::map<std::string, bool> delays_;
-};
-
 }  // namespace
 
 /// By node, the one that its tables are called after: the first that takes turns at its instance.
@@ -78,92 +56,123 @@ std::vector<std::size_t> Compound::owners() const {
   return owners;
 }
 
-std::string Compound::text() const {
-  Writer writer;
-  std::map<std::pair<std::size_t, std::size_t>, bool> used;
-  const auto read = [&](const Wire& wire, int clock) {
-    const Node& from = nodes_[wire.node];
-    used[{wire.node, wire.port}] = true;
-    return writer.delayed(wire, from.circuit.outputs[wire.port].width, from.stands ? 0 : clock - from.ready);
-  };
-  std::vector<bool> in_turn(nodes_.size());
-  for (const Turns::Instance& one : turns_.instances())
-    for (const std::size_t node : one.taker)
-      if (one.takers() > 1 && node != Turns::Instance::kNobody) in_turn[node] = true;
-  const auto instance = [&](std::size_t owner, const Circuit& circuit, const auto& connections) {
+/// The body of a compound's module: wires, with delays where a reader comes later than the writer is ready, operators,
+/// and instances at which they take turns.
+class Compound::Text {
+ public:
+  explicit Text(const Compound& of) : of_(of), in_turn_(of.nodes_.size()) {
+    for (const Turns::Instance& one : of_.turns_.instances())
+      for (const std::size_t node : one.taker)
+        if (one.takers() > 1 && node != Turns::Instance::kNobody) in_turn_[node] = true;
+  }
+
+  std::string written() {
+    if (of_.turns_.any()) body_ += phase_text(of_.interval());
+    for (std::size_t n = 0; n < of_.nodes_.size(); ++n) {
+      for (std::size_t p = 0; p < of_.nodes_[n].circuit.outputs.size(); ++p)
+        body_ += declaration(wire_name({n, p}), of_.nodes_[n].circuit.outputs[p].width);
+      write_node(n);
+    }
+    for (std::size_t k = 0; k < of_.turns_.instances().size(); ++k)
+      if (of_.turns_.instances()[k].takers() > 1) write_instance(k);
+    for (const Output& output : of_.outputs_)
+      body_ += "  assign " + output.port.name + " = " + read(output.wire, of_.latency()) + ";\n";
+    for (std::size_t n = 0; n < of_.nodes_.size(); ++n)
+      for (std::size_t p = 0; p < of_.nodes_[n].circuit.outputs.size(); ++p)
+        if (!used_.contains({n, p})) write_unused(wire_name({n, p}));
+    return body_;
+  }
+
+ private:
+  using Connections = std::vector<std::pair<std::string, std::string>>;
+
+  void write_node(std::size_t n) {
+    const Node& node = of_.nodes_[n];
+    const std::vector<Port>& outputs = node.circuit.outputs;
+    if (node.fixed) {
+      const auto bits = static_cast<std::uint64_t>(node.word) & (~std::uint64_t{0} >> (64 - outputs[0].width));
+      body_ += "  assign " + wire_name({n, 0}) + " = " + std::to_string(outputs[0].width) + "'d" +
+               std::to_string(bits) + ";\n";
+    } else if (node.twin == nullptr) {
+      body_ += "  assign " + wire_name({n, 0}) + " = " + outputs[0].name + ";\n";
+    } else if (node.circuit.module.empty()) {
+      for (std::size_t p = 0; p < outputs.size(); ++p)
+        body_ += "  assign " + wire_name({n, p}) + " = " + read(node.operands[p], node.ready) + ";\n";
+    } else if (!in_turn_[n]) {
+      Connections connections{{"clk_i", "clk_i"}};
+      for (std::size_t p = 0; p < node.circuit.inputs.size(); ++p)
+        connections.emplace_back(node.circuit.inputs[p].name, operand(n, p));
+      for (std::size_t p = 0; p < outputs.size(); ++p) connections.emplace_back(outputs[p].name, wire_name({n, p}));
+      instantiate(n, node.circuit, connections);
+    }
+  }
+
+  void write_instance(std::size_t k) {
+    const Turns::Instance& one = of_.turns_.instances()[k];
+    const auto own = [&](const char* kind, std::size_t p) {
+      return kind + std::to_string(k) + "_" + std::to_string(p);
+    };
+    Connections connections{{"clk_i", "clk_i"}};
+    for (std::size_t p = 0; p < one.circuit.inputs.size(); ++p) {
+      const Port& port = one.circuit.inputs[p];
+      std::vector<std::pair<int, std::string>> words;
+      for (int phase = 0; phase < of_.interval(); ++phase)
+        if (const std::size_t n = one.taker[static_cast<std::size_t>(phase)]; n != Turns::Instance::kNobody)
+          words.emplace_back(phase, widened(operand(n, p), of_.nodes_[n].circuit.inputs[p], port.width));
+      body_ += declaration(own("a", p), port.width) + chosen_text(own("a", p), of_.interval(), words);
+      connections.emplace_back(port.name, own("a", p));
+    }
+    for (std::size_t p = 0; p < one.circuit.outputs.size(); ++p) {
+      body_ += declaration(own("y", p), one.circuit.outputs[p].width);
+      write_unused(own("y", p));
+      for (const std::size_t n : one.taker)
+        if (n != Turns::Instance::kNobody)
+          body_ += "  assign " + wire_name({n, p}) + " = " + own("y", p) + "[" +
+                   std::to_string(of_.nodes_[n].circuit.outputs[p].width - 1) + ":0];\n";
+      connections.emplace_back(one.circuit.outputs[p].name, own("y", p));
+    }
+    instantiate(*std::min_element(one.taker.begin(), one.taker.end()), one.circuit, connections);
+  }
+
+  void write_unused(const std::string& name) {
+    body_ += "  logic unused_" + name + ";\n  assign unused_" + name + " = ^" + name + ";\n";
+  }
+
+  /// Tables come in by parameters that are called after a node.
+  void instantiate(std::size_t owner, const Circuit& circuit, const Connections& connections) {
     Circuit inner = circuit;
     for (const Memory& memory : circuit.memories)
       inner.parameters.push_back({memory.parameter, table_name(owner, memory)});
     inner.memories.clear();
-    writer.body += instantiation(inner, instance_name(owner), "", connections);
-  };
-  if (turns_.any()) writer.body += phase_text(interval());
-  for (std::size_t n = 0; n < nodes_.size(); ++n) {
-    const Node& node = nodes_[n];
-    const Circuit& circuit = node.circuit;
-    for (std::size_t p = 0; p < circuit.outputs.size(); ++p)
-      writer.body += declaration(wire_name({n, p}), circuit.outputs[p].width);
-    const std::string width = std::to_string(circuit.outputs[0].width);
-    if (node.fixed) {
-      const auto bits = static_cast<std::uint64_t>(node.word) & (~std::uint64_t{0} >> (64 - circuit.outputs[0].width));
-      writer.body += "  assign " + wire_name({n, 0}) + " = " + width + "'d" + std::to_string(bits) + ";\n";
-    } else if (node.twin == nullptr) {
-      writer.body += "  assign " + wire_name({n, 0}) + " = " + circuit.outputs[0].name + ";\n";
-    } else if (circuit.module.empty()) {
-      for (std::size_t p = 0; p < circuit.outputs.size(); ++p)
-        writer.body += "  assign " + wire_name({n, p}) + " = " + read(node.operands[p], node.ready) + ";\n";
-    } else if (!in_turn[n]) {
-      std::vector<std::pair<std::string, std::string>> connections{{"clk_i", "clk_i"}};
-      for (std::size_t p = 0; p < circuit.inputs.size(); ++p)
-        connections.emplace_back(circuit.inputs[p].name, read(node.operands[p], node.ready - circuit.latency));
-      for (std::size_t p = 0; p < circuit.outputs.size(); ++p)
-        connections.emplace_back(circuit.outputs[p].name, wire_name({n, p}));
-      instance(n, circuit, connections);
-    }
+    body_ += instantiation(inner, "u" + std::to_string(owner), "", connections);
   }
-  for (std::size_t k = 0; k < turns_.instances().size(); ++k) {
-    const Turns::Instance& one = turns_.instances()[k];
-    if (one.takers() < 2) continue;
-    const auto own = [&](const char* kind, std::size_t p) {
-      return std::string(kind) + std::to_string(k) + "_" + std::to_string(p);
-    };
-    const auto takers = [&](const auto& visit) {
-      for (int phase = 0; phase < interval(); ++phase)
-        if (const std::size_t n = one.taker[static_cast<std::size_t>(phase)]; n != Turns::Instance::kNobody)
-          visit(phase, n);
-    };
-    std::vector<std::pair<std::string, std::string>> connections{{"clk_i", "clk_i"}};
-    for (std::size_t p = 0; p < one.circuit.inputs.size(); ++p) {
-      const Port& port = one.circuit.inputs[p];
-      std::vector<std::pair<int, std::string>> words;
-      takers([&](int phase, std::size_t n) {
-        const std::string word = read(nodes_[n].operands[p], nodes_[n].ready - one.circuit.latency);
-        words.emplace_back(phase, widened(word, nodes_[n].circuit.inputs[p], port.width));
-      });
-      writer.body += declaration(own("a", p), port.width) + chosen_text(own("a", p), interval(), words);
-      connections.emplace_back(port.name, own("a", p));
-    }
-    for (std::size_t p = 0; p < one.circuit.outputs.size(); ++p) {
-      const Port& port = one.circuit.outputs[p];
-      writer.body += declaration(own("y", p), port.width) + "  logic unused_" + own("y", p) + ";\n  assign unused_" +
-                     own("y", p) + " = ^" + own("y", p) + ";\n";
-      takers([&](int, std::size_t n) {
-        writer.body += "  assign " + wire_name({n, p}) + " = " + own("y", p) + "[" +
-                       std::to_string(nodes_[n].circuit.outputs[p].width - 1) + ":0];\n";
-      });
-      connections.emplace_back(port.name, own("y", p));
-    }
-    instance(*std::min_element(one.taker.begin(), one.taker.end()), one.circuit, connections);
+
+  std::string operand(std::size_t node, std::size_t p) {
+    const Node& of = of_.nodes_[node];
+    return read(of.operands[p], of.ready - of.circuit.latency);
   }
-  for (const Output& output : outputs_)
-    writer.body += "  assign " + output.port.name + " = " + read(output.wire, latency()) + ";\n";
-  for (std::size_t n = 0; n < nodes_.size(); ++n)
-    for (std::size_t p = 0; p < nodes_[n].circuit.outputs.size(); ++p)
-      if (!used[{n, p}])
-        writer.body += "  logic unused_" + wire_name({n, p}) + ";\n  assign unused_" + wire_name({n, p}) + " = ^" +
-                       wire_name({n, p}) + ";\n";
-  return writer.body;
-}
+
+  /// The name of a wire as it is in a clock.
+  std::string read(const Wire& wire, int clock) {
+    const Node& from = of_.nodes_[wire.node];
+    used_.insert({wire.node, wire.port});
+    const int clocks = from.stands ? 0 : clock - from.ready;
+    if (clocks == 0) return wire_name(wire);
+    std::string name = wire_name(wire) + "_d" + std::to_string(clocks);
+    const int width = from.circuit.outputs[wire.port].width;
+    if (delays_.insert(name).second)
+      body_ += declaration(name, width) + "  mote_delay #(.Width(" + std::to_string(width) + "), .Depth(" +
+               std::to_string(clocks) + ")) " + name + "_u (.clk_i(clk_i), .d_i(" + wire_name(wire) + "), .d_o(" +
+               name + "));\n";
+    return name;
+  }
+
+  const Compound& of_;
+  std::vector<bool> in_turn_;  ///< by node
+  std::set<std::pair<std::size_t, std::size_t>> used_;
+  std::set<std::string> delays_;
+  std::string body_;
+};
 
 /// The twin in C:  void NAME(tables, inputs, outputs), where each operator is called in turn (c_call.hpp).
 std::string Compound::c_function() const {
@@ -227,9 +236,10 @@ Circuit Compound::circuit() const {
   const std::string sheet = "// " + name_ + ": latency " + std::to_string(whole.latency) + ", one row " +
                             (whole.interval == 1 ? "a clock" : "in " + std::to_string(whole.interval) + " clocks") +
                             ".\n";
-  whole.sources.push_back({name_,
-                           sheet + "module " + name_ + parameters + " (\n" + ports + "\n);\n" + text() + "endmodule\n",
-                           c_function()});
+  whole.sources.push_back(
+      {name_,
+       sheet + "module " + name_ + parameters + " (\n" + ports + "\n);\n" + Text(*this).written() + "endmodule\n",
+       c_function()});
   return whole;
 }
 
