@@ -69,6 +69,31 @@ TEST(Rtl, SimulatesARecording) {
   }
 }
 
+// claim    a circuit whose costly operators take turns gives the estimates of the one whose do not, byte by byte, and equals its
+//          golden model in cycles too: K clocks a proposal
+// referee  the same command without --ii; the latency law, of which only the rows' clocks differ beside the pipelines'
+TEST(Rtl, TakesTurnsAtWhatIsCostly) {
+  const Scratch scratch;
+  expect_done(scratch.shell("mote simulate ungm --set copies=2 --steps 12 --seed 4 --out obs.csv"));
+  for (const std::string arch : {"imh", "sisr"}) {
+    const std::string words = "mote rtl ungm --set copies=2 -n 100 --arch " + arch + " --simulate obs.csv --json j.json";
+    expect_done(scratch.shell(words + " --out apart"));
+    const Json apart = Json::parse(scratch.read("j.json"));
+    expect_done(scratch.shell(words + " --ii 3 --out turns"));
+    const Json turns = Json::parse(scratch.read("j.json"));
+    EXPECT_EQ(turns["compared"], 12 * 100);
+    EXPECT_EQ(turns["mismatches"], 0);
+    EXPECT_EQ(turns["cycles"], turns["predicted_cycles"]);
+    EXPECT_EQ(scratch.read("turns/estimates.csv"), scratch.read("apart/estimates.csv"));
+    if (arch == "imh") {
+      EXPECT_EQ(turns["cycles"].get<int>() - apart["cycles"].get<int>(),
+                12 * (2 * 99 + turns["stages"].get<int>() - apart["stages"].get<int>()));
+    }
+    const Ended passed = scratch.shell("sh turns/golden/run.sh && sh turns/testbench/run.sh");
+    EXPECT_EQ(passed.code, 0) << passed.err << passed.out;
+  }
+}
+
 TEST(Rtl, WritesAFolderWhoseTestbenchPasses) {
   const Scratch scratch;
   expect_done(scratch.shell("mote rtl local-level --arch sisr -n 60 --out d"));
@@ -110,7 +135,17 @@ TEST(Rtl, WritesItsGoldenModelInC) {
   const std::string says = scratch.shell("mote rtl local-level --arch none").err;
   std::istringstream kinds(says.substr(says.find("one of ") + 7));
   for (std::string kind; std::getline(kinds >> std::ws, kind, ',') && !kind.starts_with("got");)
-    if (kind != "imh-chain" && kind != "auxiliary" && kind != "groups") passes("local-level -n 3000 --arch " + kind);
+    passes("local-level -n 3000 --arch " + kind);
+  passes("ungm --arch auxiliary --proposal observation --overlap -n 200 --burn-in 7");
+  passes("local-level --arch imh-chain --lanes 4 --overlap -n 40 --draws 80 --burn-in 3");
+  passes("local-level --arch imh-parallel --overlap -n 24");
+  for (const std::string scheme : {"residual-systematic", "roulette"}) {
+    passes("local-level --arch sisr -n 100 --resampler " + scheme);
+    passes("local-level --arch groups --exchange 9 -n 100 --resampler " + scheme);
+  }
+  expect_done(scratch.shell("mote rtl ungm --set copies=2 --instances 2 --arch sisr -n 60 --out x2"));
+  for (const std::string golden : {"golden0", "golden1"})
+    EXPECT_TRUE(scratch.shell("sh x2/" + golden + "/run.sh").out.starts_with("PASSED: 20 estimates, ")) << golden;
   passes("ungm --set copies=2 -n 200 --draws 300 --burn-in 20 --chain-mean");
   passes("doa --columns 2 --arch sisr-lanes -n 200");
   const std::string folder = passes("bearings --arch sisr -n 150");
@@ -185,6 +220,10 @@ TEST(Rtl, RefusesInASentence) {
       {"local-level --arch sisr --burn-in 3", 2, "--burn-in: expected an architecture that has it, got sisr"},
       {"local-level --lanes 2", 2, "--lanes: expected an architecture that has it"},
       {"local-level --arch sisr --overlap", 2, "--overlap: expected an architecture that has it, got sisr"},
+      {"local-level --ii 0", 2, "--ii: expected an integer from 1 to 16, got 0"},
+      {"local-level --arch groups --ii 2", 2, "--ii: expected an architecture that has it, got groups"},
+      {"local-level --overlap --ii 2", 2, "--ii: expected 1 with --overlap, got 2"},
+      {"--accelerator resampler --ii 2", 2, "--ii: expected nothing with --accelerator resampler"},
       {"local-level --proposal optimal", 2, "--proposal: expected an architecture that has it, got imh"},
       {"local-level --arch auxiliary --proposal none", 2, "--proposal: expected one of the model's proposals"},
       {"local-level --arch sisr-lanes -n 99", 2, "--lanes: expected a power of two from 1 to 8 that divides"},

@@ -174,15 +174,9 @@ DesignFiles files_of(const FilterCircuit& circuit, const CircuitReport& found, c
   const Vectors& vectors = all.front();
   const hardware::Machine& machine = *circuit.machine;
   const double period_ns = 1000 / found.cost.value_or(hardware::Cost{}).fmax_mhz.value_or(100);
-  const std::vector<hardware::DesignFile> golden = found.design.instances > 1
-                                                       ? std::vector<hardware::DesignFile>{}
-                                                       : hardware::c_library(machine, found.design.registers);
   const std::map<std::string, std::string> places{
       {"name", machine.name()},
-      {"golden_row", golden.empty() ? ""
-                                    : fmt::format("| `golden/` | the golden model as a library in C (`{}.h`): `sh "
-                                                  "golden/run.sh` compiles it and plays the same recording |\n",
-                                                  machine.name())},
+      {"golden", found.design.instances == 1 ? "golden" : "golden0"},
       {"top", machine.top_name()},
       {"bus_row", on_bus(machine)
                       ? fmt::format("\n| `rtl/{}.sv` | the same with its registers on AXI4-Lite |", machine.top_name())
@@ -208,7 +202,11 @@ DesignFiles files_of(const FilterCircuit& circuit, const CircuitReport& found, c
                     {"testbench/particles.hex", vectors.particles}};
   for (const hardware::DesignFile& file : machine.modules("")) files["rtl/" + file.name] = file.text;
   for (const hardware::DesignFile& file : machine.tables()) files["tables/" + file.name] = file.text;
-  for (const hardware::DesignFile& file : golden) files["golden/" + file.name] = file.text;
+  for (unsigned i = 0; i < found.design.instances; ++i) {
+    const std::string instance = found.design.instances == 1 ? "" : std::to_string(i);
+    for (const hardware::DesignFile& file : hardware::c_library(circuit.instance(i), found.design.registers, instance))
+      files["golden" + instance + "/" + file.name] = file.text;
+  }
   if (found.design.instances > 1) add_instances(files, circuit, found.design, all);
   if (found.simulation)
     files["estimates.csv"] = circuit_estimates_csv(found.simulation->record, machine.architecture().chain);

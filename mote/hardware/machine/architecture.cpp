@@ -198,7 +198,11 @@ const std::vector<Architecture>& architectures() {
        chain_of_pairs_capacity,
        golden_chain,
        true,
-       1},
+       1,
+       false,
+       false,
+       false,
+       "imh.h"},
       {"auxiliary",
        "auxiliary-variable independent Metropolis-Hastings: one chain over pairs of state and parent, any proposal",
        "mote_imh",
@@ -216,7 +220,7 @@ const std::vector<Architecture>& architectures() {
        true,
        false,
        false,
-       {},
+       "imh.h",
        true},
       {"sisr",
        "bootstrap filter, one lane, resampling of a step beside the next one's proposals",
@@ -289,7 +293,9 @@ const std::vector<Architecture>& architectures() {
        false,
        0,
        false,
-       true},
+       true,
+       false,
+       "groups.h"},
   };
   return all;
 }

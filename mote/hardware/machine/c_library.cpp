@@ -112,6 +112,7 @@ std::string enumerators(const Machine& machine) {
   };
   for (const Parameter& one : machine.parameters())
     if (one.name != "Seed") append(one.name, c_literal(one.value));
+  for (const char* choice : {"Folded", "Overlapped", "CarryWidth"}) append(choice, "0");  // where it has none
   append("Lanes", std::to_string(capacity.lanes));
   append("Most", std::to_string(capacity.most));
   append("Chain", machine.architecture().chain ? "1" : "0");
@@ -136,15 +137,14 @@ std::string register_values(const Architecture& architecture, const RunRegisters
 
 }  // namespace
 
-std::vector<DesignFile> c_library(const Machine& machine, const RunRegisters& played) {
+std::vector<DesignFile> c_library(const Machine& machine, const RunRegisters& played, const std::string& instance) {
   const ModelCircuit& model = machine.model();
   const Architecture& architecture = machine.architecture();
   const std::string filter(architecture.c_filter);
-  const Variant& variant = machine.capacity().variant;
-  if (filter.empty() || variant.overlapped || variant.resampler != Resampler::kSystematic) return {};
   const std::string& name = machine.name();
   const std::map<std::string, std::string> places{
       {"name", name},
+      {"instance", instance},
       {"model", model.name},
       {"meaning", std::string(architecture.meaning)},
       {"sheet", machine.sheet()},
@@ -167,13 +167,15 @@ std::vector<DesignFile> c_library(const Machine& machine, const RunRegisters& pl
       {"filter", filter}};
   const auto filled = [&](const char* file) { return filled_in(machine_template(file), places); };
   const auto copied = [&](const std::string& file) { return DesignFile{file, std::string(machine_template(file))}; };
-  return {{name + ".h", filled("library.h.in")},
-          {name + ".c", filled("library.c.in")},
-          {"replay.c", filled("replay.c.in")},
-          {"run.sh", filled("replay.sh.in")},
-          copied("operators.h"),
-          copied("filter.h"),
-          copied(filter)};
+  std::vector<DesignFile> all{{name + ".h", filled("library.h.in")},
+                              {name + ".c", filled("library.c.in")},
+                              {"replay.c", filled("replay.c.in")},
+                              {"run.sh", filled("replay.sh.in")},
+                              copied("operators.h"),
+                              copied("filter.h"),
+                              copied(filter)};
+  if (!architecture.chain) all.push_back(copied("resample.h"));
+  return all;
 }
 
 }  // namespace mote::hardware

@@ -12,7 +12,7 @@ namespace mote::hardware {
 ///
 ///   NAME_open() -> NAME_start(filter, registers) -> NAME_step(filter, observation, estimate), words as on the streams
 ///
-/// shape   empty for a kind of filter that machine/golden has no C of, and for steps that overlap
-std::vector<DesignFile> c_library(const Machine& machine, const RunRegisters& played);
+/// shape   instance: what the names of the recording's files end with, of one circuit among several
+std::vector<DesignFile> c_library(const Machine& machine, const RunRegisters& played, const std::string& instance = "");
 
 }  // namespace mote::hardware

@@ -81,16 +81,16 @@ static inline uint64_t mote_weight_at(int64_t log_weight, int64_t scale) {
   return (uint64_t)mote_lowered(whole, mote_steps_between(mote_scale_needed(log_weight), scale)) >> fine;
 }
 
-// Rows of Lanes log weights to weights.
-static inline void mote_scale_weights(const int64_t *log_weights, uint32_t count, mote_weight *weights) {
+// Rows of `lanes` log weights to weights.
+static inline void mote_scale_weights(const int64_t *log_weights, uint32_t count, uint32_t lanes, mote_weight *weights) {
   int64_t scale = 0;
-  for (uint32_t row = 0; row < count; row += Lanes) {
+  for (uint32_t row = 0; row < count; row += lanes) {
     int64_t most = log_weights[row];
-    for (uint32_t lane = 1; lane < Lanes; ++lane)
+    for (uint32_t lane = 1; lane < lanes; ++lane)
       if (log_weights[row + lane] > most) most = log_weights[row + lane];
     const int64_t needed = mote_scale_needed(most);
     const int64_t risen = row == 0 || needed > scale ? needed : scale;
-    for (uint32_t lane = 0; lane < Lanes; ++lane) {
+    for (uint32_t lane = 0; lane < lanes; ++lane) {
       const mote_weight weight = {mote_weight_at(log_weights[row + lane], risen), risen, 0};
       weights[row + lane] = weight;
     }
@@ -114,15 +114,15 @@ static inline uint64_t mote_sum(const mote_weight *weights, uint32_t count) {
   return sum;
 }
 
-// The weighted mean of state d, rounded down; particles without weights count alike. Products are rounded to what a unit of
-// weight times the largest state is.
-static inline int64_t mote_mean(uint32_t (*states)[StateWords], const mote_weight *weights, uint32_t count, int d,
+// The weighted mean of state d, rounded down, of particles of `words` words each; those without weights count alike. Products
+// are rounded to what a unit of weight times the largest state is.
+static inline int64_t mote_mean(const uint32_t *states, int words, const mote_weight *weights, uint32_t count, int d,
                                 uint64_t divisor) {
   const int dropped = ValueWidth - 1;
   const int64_t half = INT64_C(1) << (dropped - 1);
   int64_t total = 0;
   for (uint32_t i = 0; i < count; ++i) {
-    const int64_t value = mote_take(states[i], d * ValueWidth, ValueWidth, 1);
+    const int64_t value = mote_take(states + (uint64_t)i * (uint64_t)words, d * ValueWidth, ValueWidth, 1);
     const int64_t weight = weights == 0 ? 1 << 16 : (int64_t)weights[i].weight;
     total = mote_lowered(total, weights == 0 ? 0 : weights[i].rise) + ((value * weight + half) >> dropped);
   }
