@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <sstream>
+#include <utility>
 
 #include "mote/base/refusal.hpp"
 #include "mote/base/scratch_folder.hpp"
@@ -89,9 +90,10 @@ struct Router {
   std::vector<std::string> device;
 };
 
-Routed routed(const Circuit& circuit, const Router& router, int seed) {
+Routed routed(Circuit circuit, const Router& router, int seed) {
   const ScratchFolder scratch;
   const std::string folder = scratch.path().string() + "/";
+  if (std::exchange(circuit.interval, 1) > 1) circuit.inputs.push_back({"enters_i"});  // comes as any other bit
   write_bench(folder, "core", {circuit});
   write_text(folder + "around.sv", surroundings(circuit));
   const auto cells =

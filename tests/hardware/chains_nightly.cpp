@@ -17,6 +17,7 @@ struct Kind {
   unsigned lanes = 1;
   bool overlapped = false;
   std::string proposal = "prior";
+  int interval = 1;
 };
 
 const Architecture& architecture_of(const std::string& name) {
@@ -55,6 +56,7 @@ TEST_P(ChainsNightly, EqualTheirGoldenModels) {
   design.lanes = kind.lanes;
   design.variant.overlapped = kind.overlapped;
   design.proposal = kind.proposal;
+  design.interval = kind.interval;
   const FilterCircuit circuit = filter_circuit(model, kind.model, design);
   Simulator simulator(*circuit.machine);
   const auto golden = circuit.machine->golden();
@@ -91,7 +93,11 @@ INSTANTIATE_TEST_SUITE_P(
                       Kind{"growth_auxiliary", "ungm", {}, "auxiliary", 1, false, "observation"},
                       Kind{"growth2_auxiliary_overlapped", "ungm", {"copies=2"}, "auxiliary", 1, true, "observation"},
                       Kind{"bearings_auxiliary", "bearings", {}, "auxiliary", 1, false, "prior"},
-                      Kind{"doa_auxiliary", "doa", {}, "auxiliary", 1, false, "prior"}),
+                      Kind{"doa_auxiliary", "doa", {}, "auxiliary", 1, false, "prior"},
+                      Kind{"growth2_in_turn", "ungm", {"copies=2"}, "imh", 1, false, "prior", 2},
+                      Kind{"bearings_in_turn", "bearings", {}, "imh-parallel", 2, false, "prior", 4},
+                      Kind{"doa_in_turn", "doa", {}, "imh", 1, false, "prior", 4},
+                      Kind{"growth_auxiliary_in_turn", "ungm", {}, "auxiliary", 1, false, "observation", 3}),
     [](const auto& one) { return one.param.name; });
 
 }  // namespace

@@ -14,5 +14,11 @@ TEST(DatapathCircuitsNightly, EqualTheirTwinsInLogicAndCordic) {
             2'000'000U);
 }
 
+// claim    the same where costly operators take turns: 10^6 rows of every pipeline together
+TEST(DatapathCircuitsNightly, EqualTheirTwinsWhereOperatorsTakeTurns) {
+  EXPECT_GE(expect_equal_to_circuits(subjects({.interval = 2}), 30, 4000), 1'000'000U);
+  EXPECT_GE(expect_equal_to_circuits(subjects({.multiplier = Multiplier::kLogic, .interval = 4}), 10, 4000), 500'000U);
+}
+
 }  // namespace
 }  // namespace mote::hardware

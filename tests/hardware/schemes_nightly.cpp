@@ -13,6 +13,7 @@ struct Cloud {
   PlainLoops loops = {};
   unsigned lanes = 1;
   std::uint32_t exchange = 0;
+  int interval = 1;  ///< cycles from a particle to the next
 };
 
 std::vector<Cloud> clouds() {
@@ -24,7 +25,10 @@ std::vector<Cloud> clouds() {
           {"merged_residual", "sisr-plain", kResidualSystematic, {true, true}},
           {"groups", "groups", kSystematic, {}, 4, 3},
           {"groups_residual", "groups", kResidualSystematic, {}, 8, 1},
-          {"groups_roulette", "groups", kRoulette, {}, 2, 512}};
+          {"groups_roulette", "groups", kRoulette, {}, 2, 512},
+          {"sisr_in_turn", "sisr", kSystematic, {}, 1, 0, 2},
+          {"sisr_roulette_in_turn", "sisr", kRoulette, {}, 1, 0, 4},
+          {"sisr_lanes_in_turn", "sisr-lanes", kSystematic, {}, 4, 0, 3}};
 }
 
 struct Target {
@@ -41,6 +45,7 @@ CircuitDesign design_of(const Cloud& cloud) {
   design.registers.exchange = cloud.exchange;
   design.lanes = cloud.lanes;
   design.variant = {cloud.resampler, cloud.loops};
+  design.interval = cloud.interval;
   return design;
 }
 
