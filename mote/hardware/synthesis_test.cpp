@@ -4,7 +4,9 @@
 
 #include "mote/hardware/arithmetic.hpp"
 #include "mote/hardware/choice.hpp"
+#include "mote/hardware/machine/cost.hpp"
 #include "mote/hardware/random.hpp"
+#include "mote/hardware/sketch.hpp"
 #include "mote/hardware/words.hpp"
 
 namespace mote::hardware {
@@ -26,6 +28,22 @@ TEST(Area, AProductIsOneBlockOrLogic) {
   const Area made = xc7_area(logic.circuit());
   EXPECT_EQ(made.dsp, 0);
   EXPECT_GT(made.lut, 200);
+}
+
+// claim    where two parts meet, the beginning and the end of a path are as long as the path in one circuit
+// referee  a sum behind a selection's register, in one
+TEST(PartCost, PathsGoOnFromPartToPart) {
+  const Format word{true, 7, 10};
+  Sketch sketch("chosen_sum", Multiplier::kDsp);
+  const Signal a = sketch.input("a_i", word);
+  const Signal b = sketch.input("b_i", word);
+  sketch.output("y_o", sketch.sum(sketch.select(sketch.input("s_i", {false, 1, 0}), a, b), a, word));
+  const PartCost whole = part_cost(sketch.done().circuit());
+  const PartCost choice = part_cost(Select{word}.circuit());
+  const PartCost sum = part_cost(Sum{word, word, word}.circuit());
+  EXPECT_EQ(choice.path_ns, 0);  // no register before it
+  EXPECT_GT(whole.path_ns, 0.5);
+  EXPECT_NEAR(choice.leaving_ns + sum.coming_ns, whole.path_ns, 0.05 * whole.path_ns);
 }
 
 TEST(Routed, AUniformSourceIsFasterThanAWideSum) {
