@@ -69,14 +69,16 @@ TEST(Rtl, SimulatesARecording) {
   }
 }
 
-// claim    a circuit whose costly operators take turns gives the estimates of the one whose do not, byte by byte, and equals its
+// claim    a circuit whose costly operators take turns gives the estimates of the one whose do not, byte by byte, and
+// equals its
 //          golden model in cycles too: K clocks a proposal
 // referee  the same command without --ii; the latency law, of which only the rows' clocks differ beside the pipelines'
 TEST(Rtl, TakesTurnsAtWhatIsCostly) {
   const Scratch scratch;
   expect_done(scratch.shell("mote simulate ungm --set copies=2 --steps 12 --seed 4 --out obs.csv"));
   for (const std::string arch : {"imh", "sisr"}) {
-    const std::string words = "mote rtl ungm --set copies=2 -n 100 --arch " + arch + " --simulate obs.csv --json j.json";
+    const std::string words =
+        "mote rtl ungm --set copies=2 -n 100 --arch " + arch + " --simulate obs.csv --json j.json";
     expect_done(scratch.shell(words + " --out apart"));
     const Json apart = Json::parse(scratch.read("j.json"));
     expect_done(scratch.shell(words + " --ii 3 --out turns"));
