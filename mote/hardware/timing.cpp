@@ -157,7 +157,7 @@ SlowestPath slowest_path(const std::string& json, const std::string& top) {
 
 PortPaths port_paths(const std::string& json, const std::string& top) {
   const Json module = module_of(json, top);
-  return Analysis(module).at_ports(module["ports"]);
+  return Analysis(module).at_ports(module.value("ports", Json::object()));
 }
 
 }  // namespace mote::hardware
