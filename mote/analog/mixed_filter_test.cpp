@@ -89,9 +89,9 @@ TEST(MixedFilter, LosesItsBiasByCalibration) {
   EXPECT_NEAR(bearing_bias(mixed_track(model, plan, design), digital), 0, 0.0007);
 }
 
-// claim    calibration knows the converters, too: the bow of a DAC, here as large as sigma_r, takes no part in the
-// bearing referee  the filter with perfect circuits design   Method-1 with the paper's DAC; one recording, one seed,
-// 4000 particles; steps of 0.35 degrees are left
+// claim    calibration knows the converters, too: a DAC's bow, as large as sigma_r, takes no part in the bearing
+// referee  the filter with perfect circuits
+// design   Method-1 with the paper's DAC; one recording, one seed, 4000 particles; steps of 0.35 degrees are left
 TEST(MixedFilter, LosesTheBowOfItsConverterByCalibration) {
   const Bearings model = tracker(0.00506145);
   const Plan plan = plan_of(FilterKind::kSisr, 4000);
