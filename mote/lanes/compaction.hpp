@@ -72,48 +72,54 @@ class Keeper {
   std::conditional_t<std::is_same_v<R, float>, __mmask16, __mmask8> bits_;
 };
 
-/// A register in which values are repeated: lane k holds values[number of marks among bits 1..k], bit 0 counting for
-/// nothing.
+/// A register in which values are repeated: lane k holds values[number of marks among lanes 1..k].
 template <class R>
 class Repeater {
  public:
-  static constexpr std::size_t kLanes = Registers<R>::kPerRegister;
-
-  /// marks: bits at and beyond kLanes are ignored.
-  explicit MOTE_INLINE Repeater(std::uint64_t marks) : index_(index_of(static_cast<std::uint32_t>(marks) & kLater)) {}
+  /// How many marks there are up to each lane, a byte for each, the first lane's aside.
+  explicit MOTE_INLINE Repeater(const std::uint8_t* counts) {
+    const auto* const bytes = reinterpret_cast<const __m128i*>(counts);
+    if constexpr (std::is_same_v<R, float>)
+      places_ = _mm512_cvtepu8_epi32(_mm_load_si128(bytes));
+    else
+      places_ = _mm512_cvtepu8_epi64(_mm_loadl_epi64(bytes));
+  }
 
   /// shape   values: (kLanes,), at any address
   MOTE_INLINE NumberRegister<R> operator()(const R* values) const {
     const auto v = hn::LoadU(typename Registers<R>::Tag{}, values);
     if constexpr (std::is_same_v<R, float>)
-      return {_mm512_permutexvar_ps(index_, v.raw)};
+      return {_mm512_permutexvar_ps(places_, v.raw)};
     else
-      return {_mm512_permutexvar_pd(index_, v.raw)};
+      return {_mm512_permutexvar_pd(places_, v.raw)};
   }
 
  private:
-  static constexpr std::uint32_t kLater = ((1U << kLanes) - 1) & ~1U;
+  __m512i places_;
+};
 
-  static MOTE_INLINE __m512i index_of(std::uint32_t later) {
-    using Counts = std::array<std::uint8_t, 8>;
-    static constexpr auto kCounts = detail::permutations<Counts, 8, 1>(detail::running_count);
-    const auto low = std::bit_cast<std::uint64_t>(kCounts[later & 255U]);
-    if constexpr (std::is_same_v<R, double>) {
-      return _mm512_cvtepu8_epi64(_mm_cvtsi64_si128(static_cast<long long>(low)));
-    } else {
-#ifdef __AVX512VPOPCNTDQ__
-      const __m512i up_to = _mm512_set_epi32(0xFFFF, 0x7FFF, 0x3FFF, 0x1FFF, 0xFFF, 0x7FF, 0x3FF, 0x1FF, 0xFF, 0x7F,
-                                             0x3F, 0x1F, 0xF, 7, 3, 1);
-      return _mm512_popcnt_epi32(_mm512_and_si512(_mm512_set1_epi32(static_cast<int>(later)), up_to));
-#else
-      const std::uint64_t high =
-          std::bit_cast<std::uint64_t>(kCounts[later >> 8U]) + (low >> 56U) * 0x0101010101010101ULL;
-      return _mm512_cvtepu8_epi32(_mm_set_epi64x(static_cast<long long>(high), static_cast<long long>(low)));
-#endif
+/// Marks of 64 lanes, counted up to each: running sums of bytes, by shifts in eight of them.
+template <class R>
+class MarkCounts {
+ public:
+  MOTE_INLINE MarkCounts(const std::uint8_t* flags, std::uint64_t) {
+    constexpr long long kLater = 0x0101010101010100;  // of eight lanes; and then eight more of a float's register
+    constexpr long long kMore = sizeof(R) == 4 ? kLater | 1 : kLater;
+    const __m512i later = _mm512_set_epi64(kMore, kLater, kMore, kLater, kMore, kLater, kMore, kLater);
+    __m512i counts = _mm512_and_si512(_mm512_load_si512(flags), later);
+    counts = _mm512_add_epi8(counts, _mm512_slli_epi64(counts, 8));
+    counts = _mm512_add_epi8(counts, _mm512_slli_epi64(counts, 16));
+    counts = _mm512_add_epi8(counts, _mm512_slli_epi64(counts, 32));
+    if constexpr (sizeof(R) == 4) {
+      const __m512i last_of_eight = _mm512_broadcast_i32x4(_mm_set_epi64x(0x0707070707070707, -1));
+      counts = _mm512_add_epi8(counts, _mm512_shuffle_epi8(counts, last_of_eight));
     }
+    _mm512_store_si512(counts_.data(), counts);
   }
+  MOTE_INLINE Repeater<R> repeater(std::size_t lane) const { return Repeater<R>(counts_.data() + lane); }
 
-  __m512i index_;
+ private:
+  alignas(64) std::array<std::uint8_t, 64> counts_;
 };
 
 #else
@@ -191,7 +197,7 @@ class Keeper {
   P permuted_;
 };
 
-/// As above, by a table of permutations.
+/// As above, by a table of permutations; from the marks of its lanes, those beyond them aside.
 template <class R>
 class Repeater {
  public:
@@ -211,7 +217,40 @@ class Repeater {
   P permuted_;
 };
 
+/// Marks of 64 lanes.
+template <class R>
+class MarkCounts {
+ public:
+  MOTE_INLINE MarkCounts(const std::uint8_t*, std::uint64_t marks) : marks_(marks) {}
+  MOTE_INLINE Repeater<R> repeater(std::size_t lane) const { return Repeater<R>(marks_ >> lane); }
+
+ private:
+  std::uint64_t marks_;
+};
+
 #endif
+
+/// Values repeated over 64 lanes, register by register: a flagged lane begins the next value.
+template <class R>
+class Repeats {
+ public:
+  static constexpr std::size_t kLanes = Registers<R>::kPerRegister;
+
+  /// shape   flags: (64,), 0 or 255, aligned to 64 bytes
+  explicit MOTE_INLINE Repeats(const std::uint8_t* flags) : marks_(marks_of(flags)), counts_(flags, marks_) {}
+
+  /// Whether the register from `lane` on begins with the next value, so that its values are to be read from there.
+  MOTE_INLINE std::size_t begins(std::size_t lane) const { return marks_ >> lane & 1U; }
+  /// How many values begin in that register.
+  MOTE_INLINE std::size_t count(std::size_t lane) const {
+    return static_cast<std::size_t>(std::popcount(marks_ >> lane & ((std::uint64_t{1} << kLanes) - 1)));
+  }
+  MOTE_INLINE Repeater<R> repeater(std::size_t lane) const { return counts_.repeater(lane); }
+
+ private:
+  std::uint64_t marks_;
+  MarkCounts<R> counts_;
+};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace mote::lanes

@@ -52,19 +52,29 @@ TYPED_TEST(Compaction, KeepsWhatAComparisonHoldsForInOrder) {
 
 TYPED_TEST(Compaction, RepeatsUpToTheNextMark) {
   using R = TypeParam;
-  std::vector<R> values(Registers<R>::kPerRegister);
+  constexpr std::size_t kPer = Registers<R>::kPerRegister;
+  std::vector<R> values(64 + kPer);
   for (std::size_t k = 0; k < values.size(); ++k) values[k] = static_cast<R>(k + 10);
-  for (std::size_t marks = 0; marks < std::size_t{1} << Registers<R>::kPerRegister; ++marks) {
-    std::vector<R> expected;
-    std::size_t at = 0;
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      if (k > 0 && (marks >> k & 1U) != 0) ++at;
-      expected.push_back(values[at]);
+  std::mt19937_64 random(4);
+  for (std::size_t pattern = 0; pattern < std::size_t{1} << kPer; ++pattern) {
+    alignas(64) std::array<std::uint8_t, 64> flags{};
+    const std::size_t place = pattern % (64 / kPer) * kPer;  // the other registers have marks of their own
+    for (std::size_t k = 0; k < flags.size(); ++k) {
+      const bool mark = k >= place && k < place + kPer ? (pattern >> (k - place) & 1U) != 0 : random() % 2 != 0;
+      flags[k] = mark ? 0xFF : 0;
     }
-    // bits beyond the register's are another register's
-    ASSERT_EQ(this->numbers_of(Repeater<R>(marks | ~std::uint64_t{0} << Registers<R>::kPerRegister)(values.data())),
-              expected)
-        << marks;
+    const Repeats<R> repeats(flags.data());
+    for (std::size_t lane = 0; lane < flags.size(); lane += kPer) {
+      std::vector<R> expected;
+      std::size_t at = 0;
+      for (std::size_t k = 0; k < kPer; ++k) {
+        if (k > 0 && flags[lane + k] != 0) ++at;
+        expected.push_back(values[lane + at]);
+      }
+      ASSERT_EQ(this->numbers_of(repeats.repeater(lane)(values.data() + lane)), expected) << pattern << ' ' << lane;
+      ASSERT_EQ(repeats.begins(lane), flags[lane] & 1U);
+      ASSERT_EQ(repeats.count(lane), at + (flags[lane] & 1U));
+    }
   }
 }
 

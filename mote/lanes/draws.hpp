@@ -20,13 +20,15 @@ class Generators {
     using Tag = Words::Tag;
     alignas(64) static constexpr std::array<std::uint64_t, 8> kLane{0, 1, 2, 3, 4, 5, 6, 7};
     const auto use = static_cast<std::uint32_t>(address.purpose) + (address.stream << 8U);
-    for (std::uint64_t half = 0; half < 2; ++half) {
-      std::array<Words, 4> c{
+    std::array<Counter, 2> halves;
+    for (std::uint64_t half = 0; half < 2; ++half)
+      halves[half] = {
           Words::all(address.block), Words::all(address.step), Words::all(use),
           Words::map([&](auto lane) { return hn::Add(lane, hn::Set(Tag{}, 8 * half)); }, Words::load(kLane.data()))};
-      encrypt(c, address.seed);
-      s_[2 * half] = joined(c[0], c[1]);
-      s_[2 * half + 1] = joined(c[2], c[3]);
+    encrypt(halves, address.seed);
+    for (std::size_t half = 0; half < 2; ++half) {
+      s_[2 * half] = joined(halves[half][0], halves[half][1]);
+      s_[2 * half + 1] = joined(halves[half][2], halves[half][3]);
     }
   }
 
@@ -66,12 +68,12 @@ class Generators {
         high);
   }
 
-  /// Philox4x32-10 on the low halves of 64-bit lanes; what it leaves in the high halves means nothing.
-  static MOTE_INLINE void encrypt(std::array<Words, 4>& c, std::uint64_t seed) {
+  using Counter = std::array<Words, 4>;
+
+  /// Philox4x32-10 of two counters on the low halves of 64-bit lanes; what it leaves in the high halves means nothing.
+  static MOTE_INLINE void encrypt(std::array<Counter, 2>& counters, std::uint64_t seed) {
     using Tag = Words::Tag;
     using Halves = Registers<std::uint32_t>;
-    auto key0 = static_cast<std::uint32_t>(seed);
-    auto key1 = static_cast<std::uint32_t>(seed >> 32U);
     const auto product = [](const Words& a, std::uint64_t factor) {
       return Words::map(
           [&](auto x) {
@@ -81,16 +83,20 @@ class Generators {
           a);
     };
     const auto high = [](const Words& a) { return Words::map([](auto x) { return hn::ShiftRight<32>(x); }, a); };
-    for (int round = 0; round < 10; ++round) {
-      const Words first = product(c[0], 0xD2511F53U);
-      const Words second = product(c[2], 0xCD9E8D57U);
-      c[0] = mixed_in(mixed_in(high(second), c[1]), Words::all(key0));
-      c[2] = mixed_in(mixed_in(high(first), c[3]), Words::all(key1));
-      c[1] = second;
-      c[3] = first;
-      key0 += 0x9E3779B9U;
-      key1 += 0xBB67AE85U;
-    }
+    Words key0 = Words::all(seed);
+    Words key1 = Words::all(seed >> 32U);
+    unrolled<10>([&](std::size_t) __attribute__((always_inline)) {
+      for (Counter& c : counters) {
+        const Words first = product(c[0], 0xD2511F53U);
+        const Words second = product(c[2], 0xCD9E8D57U);
+        c[0] = mixed_in(high(second), c[1], key0);
+        c[2] = mixed_in(high(first), c[3], key1);
+        c[1] = second;
+        c[3] = first;
+      }
+      key0 = plus(key0, Words::all(std::uint64_t{0x9E3779B9U}));
+      key1 = plus(key1, Words::all(std::uint64_t{0xBB67AE85U}));
+    });
   }
 
   std::array<Words, 4> s_;
@@ -335,6 +341,22 @@ class VectorDraw {
 #endif
   }
 
+  /// p 2^64 of the magnitude m; rounded up it would be 2^63.
+  static MOTE_INLINE Registers<double> magnitude(const Registers<std::uint64_t>& m) {
+#if HWY_TARGET <= HWY_AVX3
+    return {
+        {Registers<double>::Register{_mm512_cvt_roundepi64_pd(m.r[0].raw, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC)}}};
+#else
+    return Registers<double>::map(
+        [](auto x) {
+          const Registers<double>::Tag tag;
+          const auto whole = hn::BitCast(Registers<std::int64_t>::Tag{}, x);
+          return hn::Min(hn::ConvertTo(tag, whole), hn::Set(tag, 9223372036854774784.0));
+        },
+        m);
+#endif
+  }
+
   MOTE_INLINE Vector<float> normal_float() {
     const auto bits = halves(generators_.next());
     const Registers<float> u = magnitude(bits);
@@ -349,13 +371,7 @@ class VectorDraw {
     using Tag = U::Tag;
     const U bits = generators_.next();
     const U m = U::map([](auto b) { return hn::And(b, hn::Set(Tag{}, 0x7FFFFFFFFFFFFFFFULL)); }, bits);
-    const auto u = Registers<double>::map(
-        [](auto x) {
-          const Registers<double>::Tag tag;
-          const auto whole = hn::BitCast(Registers<std::int64_t>::Tag{}, x);
-          return hn::Min(hn::ConvertTo(tag, whole), hn::Set(tag, 9223372036854774784.0));
-        },
-        m);
+    const Registers<double> u = magnitude(m);
     Vector<double> z = polynomials_(u.template as<std::uint64_t>());
     const Mask<double> low = Vector<double>(u) < Vector<double>(0x1p55);
     if (__builtin_expect(low.any(), 0)) {

@@ -108,6 +108,21 @@ MOTE_INLINE WholeRegister<float> rounded_up(NumberRegister<float> v) { return ne
 
 #endif
 
+/// The number itself, rounded to R.
+MOTE_INLINE NumberRegister<float> as_number(WholeRegister<float> v) {
+  return hn::ConvertTo(Registers<float>::Tag{}, v);
+}
+
+#if HWY_TARGET <= HWY_AVX3
+
+MOTE_INLINE WholeRegister<double> nearest(NumberRegister<double> v) { return {_mm512_cvtpd_epi64(v.raw)}; }
+MOTE_INLINE WholeRegister<double> rounded_up(NumberRegister<double> v) {
+  return {_mm512_cvt_roundpd_epi64(v.raw, _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC)};
+}
+MOTE_INLINE NumberRegister<double> as_number(WholeRegister<double> v) { return {_mm512_cvtepi64_pd(v.raw)}; }
+
+#else
+
 // Doubles: a number from 0 to 2^52 plus 2^52 has the number itself in the low bits of its mantissa.
 
 MOTE_INLINE NumberRegister<double> two_to_52() { return hn::Set(Registers<double>::Tag{}, 0x1p52); }
@@ -117,14 +132,12 @@ MOTE_INLINE WholeRegister<double> nearest(NumberRegister<double> v) {
 }
 MOTE_INLINE WholeRegister<double> rounded_up(NumberRegister<double> v) { return nearest(hn::Ceil(v)); }
 
-/// The number itself, rounded to R.
-MOTE_INLINE NumberRegister<float> as_number(WholeRegister<float> v) {
-  return hn::ConvertTo(Registers<float>::Tag{}, v);
-}
 MOTE_INLINE NumberRegister<double> as_number(WholeRegister<double> v) {
   const Registers<double>::Tag tag;
   return hn::Sub(hn::BitCast(tag, hn::Add(v, hn::BitCast(WholeTag<double>{}, two_to_52()))), two_to_52());
 }
+
+#endif
 
 }  // namespace HWY_NAMESPACE
 }  // namespace mote::lanes

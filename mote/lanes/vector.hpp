@@ -314,16 +314,31 @@ template <class R>
 MOTE_INLINE R first(const Vector<R>& a) {
   return hn::GetLane(a.parts.r[0]);
 }
-/// The sum of all lanes, formed in double.
+namespace detail {
+
+/// The sum of a register's lanes, as sum() adds them.
+template <class Register>
+MOTE_INLINE double sum_of_halves(const Register& v) {
+  using Tag = hn::DFromV<Register>;
+  if constexpr (sizeof(Register) > 16) {
+    const hn::Half<Tag> half;
+    return sum_of_halves(hn::Add(hn::LowerHalf(half, v), hn::UpperHalf(half, v)));
+  } else {
+    auto pair = v;
+    if constexpr (hn::MaxLanes(Tag{}) > 2) pair = hn::Add(v, hn::Shuffle1032(v));
+    return static_cast<double>(hn::GetLane(pair)) + static_cast<double>(hn::ExtractLane(pair, 1));
+  }
+}
+
+}  // namespace detail
+
+/// The sum of all lanes: halves are added until a pair is left, whose sum is formed in double.
 template <class R>
 MOTE_INLINE double sum(const Vector<R>& a) {
-  alignas(64) std::array<R, 64 / sizeof(R)> lane;
-  a.store(lane.data());
-  double total = 0;
-  for (std::size_t half = lane.size() / 2; half > 1; half /= 2)
-    for (std::size_t i = 0; i < half; ++i) lane[i] += lane[i + half];
-  total = static_cast<double>(lane[0]) + static_cast<double>(lane[1]);
-  return total;
+  auto parts = a.parts.r;
+  for (std::size_t half = parts.size() / 2; half > 0; half /= 2)
+    for (std::size_t k = 0; k < half; ++k) parts[k] = hn::Add(parts[k], parts[k + half]);
+  return detail::sum_of_halves(parts[0]);
 }
 /// The largest lane.
 template <class R>

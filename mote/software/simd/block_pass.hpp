@@ -277,14 +277,21 @@ class BlockPass {
   [[gnu::flatten, gnu::noinline]] static V weigh(const S& scene, std::size_t start, std::size_t end) {
     const S here = scene;
     const std::conditional_t<std::is_trivially_copyable_v<M>, M, const M&> model = scene.model;
-    V most(kNothing);
-    for (std::size_t j = start; j < end; j += kLanes) {
+    const auto largest = [&](std::size_t j, const V& most) __attribute__((always_inline)) {
       V l = here.log_weight(model, j);
       if (__builtin_expect(j + kLanes > here.particles, 0)) l = leading(l, here.particles - j);
       l.store(here.logs + j);
-      most = lanes::max(l, most);
+      return lanes::max(l, most);
+    };
+    V even(kNothing);  // two maxima: each waits for its last comparison alone
+    V odd(kNothing);
+    std::size_t j = start;
+    for (; j + kLanes < end; j += 2 * kLanes) {
+      even = largest(j, even);
+      odd = largest(j + kLanes, odd);
     }
-    return most;
+    if (j < end) even = largest(j, even);
+    return lanes::max(even, odd);
   }
 
   /// Particles of a block whose draws are made at a time: what is made ahead is to stay in the first-level cache.

@@ -34,6 +34,7 @@ class VectorImportanceFilter final : public Filter, public Elastic {
       : seed_(seed),
         team_(team),
         share_(particles, team),
+        log_all_(std::log(static_cast<double>(particles))),
         children_(particles),
         selection_(selection),
         on_collapse_(on_collapse),
@@ -64,7 +65,7 @@ class VectorImportanceFilter final : public Filter, public Elastic {
 
   StepReport update(Step t, Rows<double> rows) override {
     pass_.take(rows, now_);
-    const double mass = level_ ? std::log(static_cast<double>(share_.all)) : 0;
+    const double mass = level_ ? log_all_ : 0;
     if (level_)
       pass<Source::kProposal, Weights::kFresh>(t, Purpose::kMove);
     else
@@ -152,6 +153,7 @@ class VectorImportanceFilter final : public Filter, public Elastic {
   void make_room() {
     if (children_ != share_.all) {
       share_ = Share(children_, nullptr);
+      log_all_ = std::log(static_cast<double>(children_));
       pass_.resize(share_.count);
       if (carries_) log_weights_.resize(whole_blocks());
       while (desks_.size() < crew_.shares(pass_.blocks())) desks_.emplace_back(now_.dimensions());
@@ -254,6 +256,7 @@ class VectorImportanceFilter final : public Filter, public Elastic {
   std::uint64_t seed_;
   Team* team_;
   Share share_;
+  double log_all_;        // log N, what level weights sum to
   std::size_t children_;  // that the next selection leaves
   SelectionOptions selection_;
   OnCollapse on_collapse_;

@@ -66,6 +66,7 @@ class SurvivorStream {
       make_room();
       scan(next_block_++);
     }
+    std::fill_n(starts_.data() + size_, kFence, std::numeric_limits<Whole>::max());
     // the last survivor that begins at or before `from` fills up what comes before the next one
     while (at_ + 1 < size_ && starts_[at_ + 1] <= static_cast<Whole>(from)) ++at_;
     flag(from, end);
@@ -78,15 +79,13 @@ class SurvivorStream {
     std::uint8_t* const all_flags = flags_.data();
     std::size_t at = at_;
     for (std::size_t out = 0; out < count; out += 64) {
-      std::uint64_t marks = lanes::marks_of(all_flags + out);
+      const lanes::Repeats<R> repeats(all_flags + out);
       std::memset(all_flags + out, 0, 64);
       for (std::size_t v = 0; v < 64 && out + v < count; v += kPer) {
-        const std::uint64_t mark = marks & ((std::uint64_t{1} << kPer) - 1);
-        marks >>= kPer;
-        const lanes::Repeater<R> repeated(mark);
-        const std::size_t from = at + (mark & 1U);  // a mark on the first child moves the load
+        const lanes::Repeater<R> repeated = repeats.repeater(v);
+        const std::size_t from = at + repeats.begins(v);
         for (std::size_t d = 0; d < to.size(); ++d) hn::Store(repeated(values[d] + from), kNumber, to[d] + out + v);
-        at += static_cast<std::size_t>(std::popcount(mark));
+        at += repeats.count(v);
       }
     }
     at_ = at;
@@ -95,6 +94,7 @@ class SurvivorStream {
  private:
   static constexpr std::size_t kCapacity = 4 * kBlock;
   static constexpr std::size_t kSlack = 64;  // room for whole vectors beyond the end
+  static constexpr std::size_t kFence = 4;   // starts beyond the list's end that no child reaches: where flag() stops
 
   void make_room() {
     if (size_ + kBlock <= kCapacity) return;
@@ -212,15 +212,15 @@ class SurvivorStream {
   void flag(std::uint32_t from, std::uint32_t end) {
     const Whole* const starts = starts_.data();
     std::uint8_t* const flags = flags_.data();
-    const Whole* const stop = std::lower_bound(starts + at_ + 1, starts + size_, static_cast<Whole>(end));
+    const auto last = static_cast<Whole>(end);
     const Whole* s = starts + at_ + 1;
-    for (; s + 4 <= stop; s += 4) {
+    for (; s[3] < last; s += 4) {
       flags[s[0] - from] = 0xFF;
       flags[s[1] - from] = 0xFF;
       flags[s[2] - from] = 0xFF;
       flags[s[3] - from] = 0xFF;
     }
-    for (; s < stop; ++s) flags[*s - from] = 0xFF;
+    for (; *s < last; ++s) flags[*s - from] = 0xFF;
   }
 
   const ChildMap* map_ = nullptr;
