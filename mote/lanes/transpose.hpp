@@ -9,7 +9,7 @@ inline namespace HWY_NAMESPACE {
 /// Turns a square of kWidth<R> rows over: number k of the row at from(i) goes to number i of the row at to(k).
 ///
 /// shape   from(i), to(k): pointers to kWidth<R> numbers, at any address; all rows are read before one is written
-/// cost    where registers have 512 bits: 64 loads and 32 shuffles for 256 floats, 32 and 8 for 64 doubles
+/// cost    where registers have 512 bits: 16 loads and 64 shuffles for 256 floats, 32 and 8 for 64 doubles
 template <class R, class From, class To>
 MOTE_INLINE void transpose(const From& from, const To& to) {
   constexpr std::size_t kRows = kWidth<R>;

@@ -136,7 +136,6 @@ class VectorMetropolisFilter final : public Filter, public Elastic {
     log_uniforms_.resize(log_weights_.size());
     const std::size_t most = std::max(blocks_of_set_.made.size(), blocks_of_proposals_.made.size());
     while (desks_.size() < crew_.shares(most)) desks_.emplace_back(set_.dimensions());
-    if (kCarried == 0) number_proposals();
   }
   /// The next proposals are as many as was aimed at; their parents are the set as it is.
   void follow_aim() {
@@ -174,19 +173,21 @@ class VectorMetropolisFilter final : public Filter, public Elastic {
     part(layout_.draws, layout_.chains * layout_.burn_in);
   }
 
-  /// Components that chains carry along; states of more, or of how many only the run knows, are gathered afterwards.
-  static constexpr std::size_t kCarried = Pass::kD <= 4 ? Pass::kD : 0;
-  using Chains = ChainGroup<R, std::max<std::size_t>(kCarried, 1)>;
+  using Chains = ChainGroup<R>;
   using Number = std::conditional_t<std::is_same_v<R, float>, std::uint32_t, std::uint64_t>;
 
   /// What one share of a step works with.
   struct Desk : Pass::Desk {
     AlignedVector<R> scratch;      // weights of the block at hand, and what keeps them apart
     AlignedVector<Index> parents;  // of its proposals, with room for a vector more
+    AlignedVector<R> held;         // states of the chains at hand
     ChainReport chains;
 
     explicit Desk(std::size_t dimensions)
-        : Pass::Desk(dimensions), scratch(kBlock + kApart), parents(kBlock + lanes::kWidth<R>) {}
+        : Pass::Desk(dimensions),
+          scratch(kBlock + kApart),
+          parents(kBlock + lanes::kWidth<R>),
+          held(dimensions * Chains::kLanes) {}
   };
 
   /// Half a page: a store one page and a line behind a load that comes next would seem to be what it waits for.
@@ -259,6 +260,19 @@ class VectorMetropolisFilter final : public Filter, public Elastic {
     std::size_t count;
     Index members;
   };
+  /// Two numbers from anywhere, side by side: as whole numbers, which take ports that the generators leave free, and in
+  /// one store where they fit.
+  static MOTE_INLINE void copy_pair(const R* first, const R* second, R* to) {
+    std::array<Number, 2> bits;
+    std::memcpy(&bits[0], first, sizeof(R));
+    std::memcpy(&bits[1], second, sizeof(R));
+    if constexpr (sizeof(R) == 4) {
+      const std::uint64_t both = bits[0] | std::uint64_t{bits[1]} << 32U;
+      std::memcpy(to, &both, sizeof(both));
+    } else {
+      std::memcpy(to, bits.data(), sizeof(bits));
+    }
+  }
   /// Draws and loads in one loop: while memory answers, the generators work.
   template <bool kDraws>
   [[gnu::flatten, gnu::noinline]] static void deal_out(const Deal& deal, const Particles<R>& set, Desk& desk,
@@ -277,10 +291,9 @@ class VectorMetropolisFilter final : public Filter, public Elastic {
       if constexpr (kDraws) parent.index(members, parents + j + kWidth);
       lanes::log_uniform(accept.uniform()).store(log_uniforms + j);
       // places behind the last proposal hold members, too: of a draw, or of a block before
-      lanes::unrolled<kWidth>([&](std::size_t i) {
-        const Index at = parents[j + i];
-        // memcpy: moved as a whole number, which takes a port that the generators leave free
-        for (std::size_t d = 0; d < to.size(); ++d) std::memcpy(to[d] + j + i, from[d] + at, sizeof(R));
+      lanes::unrolled<kWidth / 2>([&](std::size_t k) __attribute__((always_inline)) {
+        const Index* const pair = parents + j + 2 * k;
+        for (std::size_t d = 0; d < to.size(); ++d) copy_pair(from[d] + pair[0], from[d] + pair[1], to[d] + j + 2 * k);
       });
     }
   }
@@ -290,57 +303,30 @@ class VectorMetropolisFilter final : public Filter, public Elastic {
     const std::size_t chains = share_.end() - share_.first();
     const std::size_t groups = Chains::groups(chains);
     const std::size_t blocks = blocks_of_proposals_.made.size();
-    const auto [from, to] = carried_columns();
+    auto from = column_pointers<const R, Pass::kD>(set_.dimensions());
+    auto to = column_pointers<R, Pass::kD>(set_.dimensions());
+    for (std::size_t d = 0; d < set_.dimensions(); ++d) {
+      from[d] = proposals_.component(d).data();
+      to[d] = set_.component(d).data();
+    }
     for (Desk& desk : desks_) desk.chains = {};
     // shared out by the blocks' number, which says how much work there is
     crew_.run(blocks, [&](std::size_t share, std::size_t first, std::size_t last) {
       const lanes::SubnormalsAreZero fast;
       for (std::size_t g = groups * first / blocks; g < groups * last / blocks; ++g) {
         const ChainReport group = Chains(layout_, share_.first() + g * Chains::kLanes, share_.end(),
-                                         log_weights_.data(), log_uniforms_.data(), from, starts)
-                                      .run(to);
+                                         log_weights_.data(), log_uniforms_.data(), starts)
+                                      .run(from, to, std::span<R>(desks_[share].held));
         desks_[share].chains.offered += group.offered;
         desks_[share].chains.accepted += group.accepted;
       }
     });
-    if constexpr (kCarried == 0) gather();
     ChainReport all;
     for (const Desk& desk : desks_) {
       all.offered += desk.chains.offered;
       all.accepted += desk.chains.accepted;
     }
     return all;
-  }
-
-  auto carried_columns() {
-    std::pair<std::array<const R*, Chains::kColumnCount>, std::array<R*, Chains::kColumnCount>> all;
-    if constexpr (kCarried == 0) {
-      all.first[0] = numbers_.data();
-      all.second[0] = picks_.data();
-    } else {
-      for (std::size_t d = 0; d < kCarried; ++d) {
-        all.first[d] = proposals_.component(d).data();
-        all.second[d] = set_.component(d).data();
-      }
-    }
-    return all;
-  }
-
-  /// Numbers of proposals as chains carry them: the bits of an index in an R.
-  void number_proposals() {
-    picks_.resize(layout_.kept);
-    numbers_.resize(layout_.proposals());
-    for (std::size_t j = 0; j < numbers_.size(); ++j) numbers_[j] = std::bit_cast<R>(static_cast<Number>(j));
-  }
-  void gather() {
-    const Cut kept(layout_.kept, layout_.chains);
-    const std::size_t begin = kept.begin(share_.first());
-    const std::size_t end = kept.begin(share_.end());
-    crew_.run(blocks_of(end - begin), [&](std::size_t, std::size_t first, std::size_t last) {
-      for (std::size_t d = 0; d < set_.dimensions(); ++d)
-        for (std::size_t j = begin + first * kBlock; j < std::min(begin + last * kBlock, end); ++j)
-          set_.component(d)[j] = proposals_.component(d)[std::bit_cast<Number>(picks_[j])];
-    });
   }
 
   /// As MetropolisFilter draws them: systematic by the weights of all proposals, dealt to the chains from a random one
@@ -400,7 +386,6 @@ class VectorMetropolisFilter final : public Filter, public Elastic {
   mutable Particles<R> proposals_;        // of this step; what other ranks have is fetched when asked for
   mutable AlignedVector<R> log_weights_;  // of the proposals
   AlignedVector<R> log_uniforms_;         // what decides on them
-  AlignedVector<R> numbers_, picks_;      // where chains do not carry the states
   mutable Pass pass_;
   std::vector<Desk> desks_;
   bool complete_ = true;  // the set is on every rank as it is
