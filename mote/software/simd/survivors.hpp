@@ -24,7 +24,7 @@ namespace hn = lanes::hn;
 
 /// The survivors between the weights read and the children written.
 ///
-/// cost    memory: five blocks of particles
+/// cost    memory: three blocks of particles
 template <class R, std::size_t kD>
 class SurvivorStream {
  public:
@@ -92,7 +92,9 @@ class SurvivorStream {
   }
 
  private:
-  static constexpr std::size_t kCapacity = 4 * kBlock;
+  /// When a block is to be scanned, those left begin inside the chunk that is written, but for one; a longer list would
+  /// leave the first-level cache.
+  static constexpr std::size_t kCapacity = 2 * kBlock + 64;
   static constexpr std::size_t kSlack = 64;  // room for whole vectors beyond the end
   static constexpr std::size_t kFence = 4;   // starts beyond the list's end that no child reaches: where flag() stops
 
