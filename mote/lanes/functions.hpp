@@ -238,27 +238,27 @@ MOTE_INLINE numbers::SinCos<Vector<R>> reduced_sin_cos(const Vector<R>& x) {
   constexpr bool kFloat = std::is_same_v<R, float>;
   const V n = round(x * V(2 / kPi));
   V r;
+  V rest(0);  // of the reduced argument
+  if constexpr (kFloat) {
 #if HWY_NATIVE_FMA
-  if constexpr (kFloat) {  // pi/2 in three parts; fused, each product is exact
+    // pi/2 in three parts; fused, each product is exact
     r = fnma(n, V(1.57079637050628662109375), x);
     r = fnma(n, V(-4.37113900018624283e-8), r);
     r = fnma(n, V(-1.71512451000588005e-15), r);
-  } else {
-    r = fnma(n, V(1.57079632679489655800e+00), x);
-    r = fnma(n, V(6.12323399573676603587e-17), r);
-    r = fnma(n, V(-1.49738490485916983e-33), r);
-  }
 #else
-  if constexpr (kFloat) {  // pi/2 in parts of so few bits that n times a part is exact
+    // pi/2 in parts of so few bits that n times a part is exact
     r = fnma(n, V(1.5703125), x);
     r = fnma(n, V(4.837512969970703125e-4), r);
     r = fnma(n, V(7.549789954891882e-8), r);
-  } else {
-    r = fnma(n, V(1.57079632673412561417e+00), x);
-    r = fnma(n, V(6.07710050630396597660e-11), r);
-    r = fnma(n, V(2.02226624879595063154e-21), r);
-  }
 #endif
+  } else {  // pi/2 in parts of 33, 33 and 53 bits: nothing is rounded but r, and what that loses is kept
+    const V most = fnma(n, V(1.57079632673412561417e+00), x);
+    const V second(6.07710050630396597660e-11);
+    const V more = fnma(n, second, most);
+    const V last = fnma(n, V(2.02226624879595063154e-21), fnma(n, second, most - more));
+    r = more + last;
+    rest = (more - r) + last;
+  }
   const V z = r * r;
   V s;
   V c;
@@ -268,16 +268,18 @@ MOTE_INLINE numbers::SinCos<Vector<R>> reduced_sin_cos(const Vector<R>& x) {
             polynomial(z, std::array<double, 3>{4.166664568298827e-2, -1.388731625493765e-3, 2.443315711809948e-5}),
             fnma(z, V(0.5), V(1)));
   } else {
-    s = fma(z * r,
-            polynomial(z, std::array<double, 6>{-1.66666666666666307295e-1, 8.33333333332211858878e-3,
-                                                -1.98412698295895385996e-4, 2.75573136213857245213e-6,
-                                                -2.50507477628578072866e-8, 1.58962301576546568060e-10}),
-            r);
-    c = fma(z * z,
+    s = r + fma(z * r,
+                polynomial(z, std::array<double, 6>{-1.66666666666666307295e-1, 8.33333333332211858878e-3,
+                                                    -1.98412698295895385996e-4, 2.75573136213857245213e-6,
+                                                    -2.50507477628578072866e-8, 1.58962301576546568060e-10}),
+                rest);
+    const V correction =
+        fma(z * z,
             polynomial(z, std::array<double, 6>{4.16666666666665929218e-2, -1.38888888888730564116e-3,
                                                 2.48015872888517045348e-5, -2.75573141792967388112e-7,
                                                 2.08757008419747316778e-9, -1.13585365213876817300e-11}),
-            fnma(z, V(0.5), V(1)));
+            -(r * rest));
+    c = fnma(z, V(0.5), V(1)) + correction;
   }
   // quarter q: (s, c), (c, -s), (-s, -c), (-c, s)
   const I q = to_whole(n);
