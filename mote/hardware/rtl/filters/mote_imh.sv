@@ -26,7 +26,7 @@
 //          draws_i + Lanes burn_in_i <= 2^At (Folded: draws_i + burn_in_i); Most <= 2^At. Registers are read at start_i
 // timing   a row every Interval = T cycles; a step of r rows takes (r - 1) T + K_p + K_w + 1 cycles, exactly (IMH-HW 5.3 with
 //          T_p = T_w = T, T_D = 1; of pairs with T_D = 1/Lanes): K_p = 3 + Product + ProposeLatency, K_w = WeighLatency + 1 (Folded: WeighLatency + Lanes + 2); the estimate
-//          follows 6 + Product + Dims (ValueWidth + Extra + 1) cycles (1 + log2 Lanes more with several lanes) behind the last decision, of
+//          follows 6 + Product + Dims (ValueWidth + Extra + 1) cycles (2 log2 Lanes more with several lanes) behind the last decision, of
 //          a folded chain sooner or later, see imh.cpp. A step waits for an observation, and for the estimate of the
 //          step before the last to be taken. Overlapped: r + W - H cycles; r where n >= 2 W.
 //          ProposeLatency + WeighLatency >= 6; Interval = 1 where steps overlap
@@ -211,7 +211,7 @@ module mote_imh #(
       .write_state_i(kept_state_o));
 
   // ---- the model's arithmetic, and the chains, whose words begin 5 cycles before the log weight is there
-  localparam int unsigned Scaled = Lanes > 1 ? 4 : 3;  // from log weights to weights, the latency of mote_weight
+  localparam int unsigned Scaled = 3 + LaneBits;  // from log weights to weights, the latency of mote_weight
   localparam int unsigned Tap = ChainLatency < Scaled ? ChainLatency : Scaled;
   logic weighed_valid, weighed_first, decides, starts, keeps;
   logic [Lanes-1:0] accepts;
