@@ -269,13 +269,15 @@ module mote_imh #(
     end
   end
 
-  // What a row moved the chains by; that they start is no move.
+  // What a row moved the chains by, counted a cycle later; that they start is no move.
   count_t decided_q, accepted_q, accepted_d, accepted, moves;
+  logic [Lanes-1:0] accepts_q;
+  logic counts_q, started_q;
   always_comb begin
     moves = '0;
-    for (int l = 0; l < Lanes; l++) moves = moves + (At + 1)'(accepts[l]);
+    for (int l = 0; l < Lanes; l++) moves = moves + (At + 1)'(accepts_q[l]);
   end
-  assign accepted_d = !starts ? accepted_q + moves : Folded == 1 ? moves : '0;
+  assign accepted_d = !started_q ? accepted_q + moves : Folded == 1 ? moves : '0;
   logic [SlotWidth-1:0] slot_q;
   logic kept_q, kept_first_q;
   assign starts = decided_q == '0;
@@ -295,12 +297,17 @@ module mote_imh #(
     end
   end
   always_ff @(posedge clk_i) begin
-    if (decides) accepted_q <= accepted_d;
+    {accepts_q, counts_q, started_q} <= {accepts, decides, starts};
+    if (counts_q) accepted_q <= accepted_d;
     kept_first_q <= decided_q == drop_q;
   end
   if (Overlapped == 1) begin : gen_accepted  // the next step's first decision comes at once
     count_t accepted_last_q;
-    always_ff @(posedge clk_i) if (decided_last) accepted_last_q <= accepted_d;
+    logic ended_q;
+    always_ff @(posedge clk_i) begin
+      ended_q <= decided_last;
+      if (ended_q) accepted_last_q <= accepted_d;
+    end
     assign accepted = accepted_last_q;
   end else begin : gen_accepted
     assign accepted = accepted_q;
