@@ -109,7 +109,7 @@ void Groups::keep_time() {
   for (std::size_t k = 0; k < issued_.size(); ++k) written_[k] = issued_[k] + model + weight_cycles(1);
   pace_.free_from(issued_.back() + model);
   pace_.sums_stand(written_.back() + sum_cycles(f, groups_.size()) + common_scale_cycles(groups_.size()),
-                    division_cycles(f));
+                   division_cycles(f));
 }
 
 }  // namespace mote::hardware
