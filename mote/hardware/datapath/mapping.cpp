@@ -240,7 +240,8 @@ Signal Mapping::by_constant(const Signal& a, Id constant, const Format& y) {
 Signal Mapping::selection(const Vertex& v, const Format& y) {
   if (plan_.seen_bit(v.args[0]) >= 0) {
     const Signal term = signal(v.args[3]);
-    return sketch_.select(signal(v.args[0]), term, sketch_.constant(term.format, 0), false);
+    // A bit that goes along comes out of a shift register, too late for more than the choice.
+    return sketch_.select(signal(v.args[0]), term, sketch_.constant(term.format, 0), overlapped_);
   }
   const Signal a = converted(signal(v.args[2]), y);
   const Signal b = converted(signal(v.args[3]), y);

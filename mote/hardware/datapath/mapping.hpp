@@ -35,14 +35,16 @@ class Functions {
 /// sum: its terms are added as they come.
 class Mapping {
  public:
+  /// overlapped: fields go with each particle instead of standing.
   Mapping(const Plan& plan, const graph::Recorded& recorded, const Precision& precision,
-          const std::map<graph::Id, Fused>& fused, Sketch& sketch, Functions& functions)
+          const std::map<graph::Id, Fused>& fused, Sketch& sketch, Functions& functions, bool overlapped)
       : plan_(plan),
         recorded_(recorded),
         precision_(precision),
         fused_(fused),
         sketch_(sketch),
         functions_(functions),
+        overlapped_(overlapped),
         readers_(readers_of(plan)),
         room_(room_of(plan, fused)) {}
 
@@ -92,6 +94,7 @@ class Mapping {
   const std::map<graph::Id, Fused>& fused_;
   Sketch& sketch_;
   Functions& functions_;
+  bool overlapped_;
   std::vector<unsigned> readers_;  ///< by vertex: how often others and results read it
   std::vector<int> room_;          ///< by vertex: the bits that it may grow to where that is cheaper
   std::vector<bool> wanted_;       ///< by vertex: to be computed

@@ -1,7 +1,6 @@
 #pragma once
 /// Sums over a step's particles and the means by division, golden twin of rtl/filters/mote_estimate.sv.
 
-#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -39,9 +38,6 @@ std::uint64_t sum_of(std::span<const ScaledWeight> weights);
 std::vector<std::int64_t> weighted_means(std::span<const std::vector<std::int64_t>> states,
                                          std::span<const ScaledWeight> weights, std::uint64_t divisor,
                                          const Formats& formats);
-
-/// Stages by which a row of several lanes is added up, a power of two of them.
-constexpr std::uint64_t row_cycles(std::size_t lanes) { return static_cast<std::uint64_t>(std::countr_zero(lanes)); }
 
 /// Cycles from the last row of a step to the sums of its values.
 constexpr std::uint64_t sum_cycles(const Formats& f, std::size_t lanes) {

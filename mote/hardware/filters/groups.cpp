@@ -7,7 +7,8 @@
 namespace mote::hardware {
 namespace {
 
-constexpr std::uint64_t kCommonScale = 2;  ///< stages that bring the groups' weights to one scale
+/// Stages that find the groups' largest scale and bring their weights to it.
+std::uint64_t common_scale_cycles(std::size_t groups) { return row_cycles(groups) + 1; }
 
 }  // namespace
 
@@ -107,7 +108,8 @@ void Groups::keep_time() {
   const std::uint64_t model = 2 + f.propose_latency + f.weigh_latency;
   for (std::size_t k = 0; k < issued_.size(); ++k) written_[k] = issued_[k] + model + weight_cycles(1);
   pace_.free_from(issued_.back() + model);
-  pace_.sums_stand(written_.back() + sum_cycles(f, groups_.size()) + kCommonScale, division_cycles(f));
+  pace_.sums_stand(written_.back() + sum_cycles(f, groups_.size()) + common_scale_cycles(groups_.size()),
+                   division_cycles(f));
 }
 
 }  // namespace mote::hardware

@@ -65,10 +65,12 @@ bool ChildrenWalk::looks() {
 }
 
 bool ChildrenWalk::cycle(bool ready) {
-  const bool shown = shows_;
-  if (shown && ready) shows_ = false;
-  const bool completes = !window_.empty() && end_of(window_.back()) >= first_ + lanes_;
-  if (!window_.empty() && !(completes && shows_)) shows_ = looks() || shows_;
+  const bool taken = shows_ && ready;
+  if (!shows_ || ready) {
+    const bool found = !window_.empty() && looks();
+    shows_ = lanes_ == 1 ? found : looked_;
+    looked_ = found;
+  }
 
   std::size_t freed = 0;
   if (!queue_.empty() && window_.size() < (lanes_ == 1 ? 1 : 2)) {
@@ -91,7 +93,7 @@ bool ChildrenWalk::cycle(bool ready) {
   room_ += freed_;
   freed_ = freed;
   ++now_;
-  return shown && ready;
+  return taken;
 }
 
 }  // namespace mote::hardware

@@ -61,6 +61,7 @@ class ChildrenWalk {
   std::size_t lanes_, rows_, latency_, read_ = 0, room_ = kRows, freed_ = 0;
   std::uint64_t now_;
   std::uint32_t first_ = 0;     ///< child of the group
+  bool looked_ = false;         ///< a group was found in the rows, which several lanes show a cycle later
   bool shows_ = false;          ///< a group
   std::deque<Arrival> flying_;  ///< rows on their way
   std::deque<std::size_t> queue_, window_;

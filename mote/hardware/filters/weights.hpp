@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -61,7 +62,10 @@ constexpr unsigned quanta_between(std::int64_t before, std::int64_t after) {
   return static_cast<unsigned>(std::min<std::int64_t>(after - before, kNothing));
 }
 
+/// Stages by which the lanes of a row, a power of two of them, come to one: mote_row.
+constexpr std::uint64_t row_cycles(std::size_t lanes) { return static_cast<std::uint64_t>(std::countr_zero(lanes)); }
+
 /// Cycles from a row of log weights to its weights.
-constexpr std::uint64_t weight_cycles(std::size_t lanes) { return lanes > 1 ? 4 : 3; }
+constexpr std::uint64_t weight_cycles(std::size_t lanes) { return 3 + row_cycles(lanes); }
 
 }  // namespace mote::hardware

@@ -5,7 +5,7 @@
 // Several lanes look at two rows; a group whose children lie in more waits with those it has. One lane looks at one.
 //
 // range    J do not decrease, rows have children, the last J is the number of all children, a multiple of Lanes
-// timing   a group shows 2 cycles after the row that completes it; a group a cycle unless it lies in three rows or more
+// timing   a group shows 2 cycles (several lanes: 3) after the row that completes it; a group a cycle unless it lies in three rows or more
 // golden   mote/hardware/filters/offspring.hpp
 module mote_children #(
     parameter int unsigned Lanes     = 1,
@@ -55,54 +55,77 @@ module mote_children #(
     end
   end else begin : gen_lanes
     localparam int unsigned EndsWidth = Many * (At + 1);
-    localparam int unsigned PlaceWidth = $clog2(Many);
+    localparam int unsigned PlaceWidth = $clog2(2 * Many);  // of a particle of both rows
+    localparam int unsigned LaneBits = $clog2(Lanes);
+    typedef logic [At-LaneBits:0] group_t;
     logic [RowWidth-1:0] a_row_q, b_row_q;
     logic [EndsWidth-1:0] a_ends_q, b_ends_q;
     logic a_valid_q, b_valid_q;
 
-    // ---- the children so far, and those of the group that the rows tell
-    count_t first_q, known_q, group_end, end_known, a_end, b_end;
-    assign a_end = a_ends_q[EndsWidth-1-:At+1];
-    assign b_end = b_ends_q[EndsWidth-1-:At+1];
-    logic done, moves, a_through, b_through;
-    assign group_end = first_q + (At + 1)'(Lanes);
-    assign end_known = b_valid_q ? b_end : a_end;
-    assign done = a_valid_q && end_known >= group_end;
-    assign moves = a_valid_q && !(done && valid_o && !ready_i);
-    assign a_through = moves && (!done || a_end <= group_end);
-    assign b_through = moves && (!done || b_end <= group_end);
-
-    logic [Lanes*At-1:0] kept_q, group;
-    for (genvar l = 0; l < Lanes; l++) begin : gen_child
-      count_t child;
-      logic in_a;
-      logic [EndsWidth-1:0] ends;
-      logic [PlaceWidth-1:0] place;
-      assign child = first_q + (At + 1)'(l);
-      assign in_a = a_end > child;
-      assign ends = in_a ? a_ends_q : b_ends_q;
-      always_comb begin
-        place = '0;
-        for (int i = Many - 1; i >= 0; i--) if (ends[i*(At+1)+:At+1] > child) place = PlaceWidth'(i);
+    // ---- which children of the group come before each end: an end is a group and a child in it
+    group_t group_q, next_q;
+    logic [2*Many-1:0] later;        // ends of groups behind
+    logic [2*Many*Lanes-1:0] above;  // ends, child after child
+    logic [Lanes-1:0] known;         // children whose parents the rows tell
+    logic goes, moves, a_through, b_through;
+    for (genvar i = 0; i < 2 * Many; i++) begin : gen_end
+      count_t particle_end;
+      logic here;
+      logic [Lanes-1:0] children;
+      assign particle_end = i < Many ? a_ends_q[i%Many*(At+1)+:At+1] : b_ends_q[i%Many*(At+1)+:At+1];
+      assign later[i] = particle_end[At:LaneBits] > group_q;
+      assign here = particle_end[At:LaneBits] == group_q;
+      assign children = {Lanes{later[i]}} | {Lanes{here}} & ((Lanes'(1) << particle_end[LaneBits-1:0]) - Lanes'(1));
+      for (genvar l = 0; l < Lanes; l++) begin : gen_child
+        assign above[l*2*Many+i] = children[l];
       end
-      assign group[l*At+:At] = child < known_q ? kept_q[l*At+:At] : {in_a ? a_row_q : b_row_q, place};
     end
-    always_ff @(posedge clk_i or negedge rst_ni) begin
-      if (!rst_ni) valid_o <= 1'b0;
-      else if (clear_i) valid_o <= 1'b0;
-      else if (moves && done) valid_o <= 1'b1;
-      else if (ready_i) valid_o <= 1'b0;
+    for (genvar l = 0; l < Lanes; l++) begin : gen_known
+      assign known[l] = above[l*2*Many+Many-1] || b_valid_q && above[(l+1)*2*Many-1];
+    end
+    // A row is through when its last end is the next group's first child or before it.
+    count_t next_first;
+    assign next_first = {next_q, {LaneBits{1'b0}}};
+    assign goes = !valid_o || ready_i;
+    assign moves = a_valid_q && goes;
+    assign a_through = moves && (!later[Many-1] || a_ends_q[EndsWidth-1-:At+1] == next_first);
+    assign b_through = moves && (!later[2*Many-1] || b_ends_q[EndsWidth-1-:At+1] == next_first);
+    always_ff @(posedge clk_i) begin
+      if (clear_i) begin
+        group_q <= '0;
+        next_q  <= (At - LaneBits + 1)'(1);
+      end else if (moves && known[Lanes-1]) begin
+        group_q <= next_q;
+        next_q  <= next_q + (At - LaneBits + 1)'(1);
+      end
+    end
+
+    // ---- the parents of those that were not known before: the first end above each
+    logic [2*Many*Lanes-1:0] above_q;
+    logic [RowWidth-1:0] a_looked_q, b_looked_q;
+    logic [Lanes-1:0] known_q, before_q;  // by the rows looked at, and by those before them
+    logic looked_q;
+    function automatic logic [PlaceWidth-1:0] first_of(input logic [2*Many-1:0] ends_above);
+      first_of = '0;
+      for (int k = PlaceWidth - 1; k >= 0; k--)
+        if (!ends_above[first_of|PlaceWidth'((1<<k)-1)]) first_of[k] = 1'b1;
+    endfunction
+    for (genvar l = 0; l < Lanes; l++) begin : gen_parent
+      logic [PlaceWidth-1:0] place;
+      assign place = first_of(above_q[l*2*Many+:2*Many]);
+      always_ff @(posedge clk_i)
+        if (goes && !before_q[l])
+          parent_o[l*At+:At] <= {place[PlaceWidth-1] ? b_looked_q : a_looked_q, place[PlaceWidth-2:0]};
     end
     always_ff @(posedge clk_i) begin
-      if (moves && done) parent_o <= group;
-      if (moves) kept_q <= group;
-      if (clear_i) begin
-        first_q <= '0;
-        known_q <= '0;
-      end else if (moves) begin
-        if (done) first_q <= group_end;
-        known_q <= done ? group_end : end_known;
-      end
+      if (goes) {above_q, a_looked_q, b_looked_q, known_q} <= {above, a_row_q, b_row_q, known};
+      if (clear_i) before_q <= '0;
+      else if (goes && looked_q) before_q <= known_q[Lanes-1] ? '0 : known_q;
+    end
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) {looked_q, valid_o} <= '0;
+      else if (clear_i) {looked_q, valid_o} <= '0;
+      else if (goes) {looked_q, valid_o} <= {a_valid_q, looked_q && known_q[Lanes-1]};
     end
 
     // ---- the rows move up

@@ -73,7 +73,7 @@ module mote_estimate #(
   logic signed [ScaleWidth-1:0] scale_q, row_scale;
   logic row_valid;
   logic [1:0] row_rise;
-  mote_row_sum #(.Lanes(Lanes), .Width(Width), .SumWidth(SumWidth)) u_row (.clk_i, .word_i(weight_i), .sum_o(row));
+  mote_row #(.Lanes(Lanes), .Width(Width), .RowWidth(SumWidth)) u_row (.clk_i, .word_i(weight_i), .row_o(row));
   mote_valid #(.Depth(Tree)) u_row_valid (.clk_i, .rst_ni, .valid_i(weight_valid_i), .valid_o(row_valid));
   mote_delay #(.Width(ScaleWidth + 2), .Depth(Tree)) u_scale (
       .clk_i, .d_i({scale_i, weight_rise_i}), .d_o({row_scale, row_rise}));
@@ -119,8 +119,8 @@ module mote_estimate #(
       logic unused_bits;
       assign unused_bits = ^rounded_q[Dropped-1:0];
     end
-    mote_row_sum #(.Lanes(Lanes), .Width(TermWidth), .SumWidth(TotalWidth), .Signed(1'b1)) u_terms (
-        .clk_i, .word_i(terms), .sum_o(term));
+    mote_row #(.Lanes(Lanes), .Width(TermWidth), .RowWidth(TotalWidth), .Signed(1'b1)) u_terms (
+        .clk_i, .word_i(terms), .row_o(term));
     assign kept = value_rise_q == 2'd3 ? TotalWidth'(0) : TotalWidth'(total_q >>> {value_rise_q, 3'b0});
     // term + kept, as a difference, whose sides keep their places: the choice goes into the adder's look-up tables.
     assign {summed, unused_zero} = {term, 1'b0} - {~kept, 1'b1};

@@ -231,11 +231,11 @@ module mote_groups #(
 
   // ---- weights at the scale of all groups
   logic valid1, valid2, last2, first_row_q;
-  logic signed [ScaleWidth-1:0] most, most1_q, most2_q;
+  logic signed [ScaleWidth-1:0] most1, most2_q;
   logic [ScaleWidth-1:0] risen;
   logic [1:0] rise2_q;
-  logic [Lanes*WeightWidth-1:0] weight1_q, weight2_q;
-  logic [Lanes*ScaleWidth-1:0] scale1_q;
+  logic [Lanes*WeightWidth-1:0] weight1, weight2_q;
+  logic [Lanes*ScaleWidth-1:0] scale1;
   logic [Lanes*StateWidth-1:0] state2;
   function automatic logic [1:0] limited(input logic [ScaleWidth-1:0] difference);
     limited = difference > ScaleWidth'(3) ? 2'd3 : difference[1:0];
@@ -243,27 +243,23 @@ module mote_groups #(
   function automatic logic [WeightWidth-1:0] lowered(input logic [WeightWidth-1:0] from, input logic [1:0] quanta);
     lowered = quanta == 2'd3 ? '0 : from >> {quanta, 3'b0};
   endfunction
-  always_comb begin
-    most = scale[0+:ScaleWidth];
-    for (int l = 1; l < Lanes; l++)
-      if ($signed(scale[l*ScaleWidth+:ScaleWidth]) > most) most = scale[l*ScaleWidth+:ScaleWidth];
-  end
-  assign risen = most1_q - most2_q;
-  mote_valid #(.Depth(1)) u_valid1 (.clk_i, .rst_ni, .valid_i(kept_valid_o), .valid_o(valid1));
+  mote_row #(.Lanes(Lanes), .Width(ScaleWidth), .RowWidth(ScaleWidth), .Signed(1'b1), .Greatest(1'b1)) u_most (
+      .clk_i, .word_i(scale), .row_o(most1));
+  assign risen = most1 - most2_q;
+  mote_delay #(.Width(Lanes * (WeightWidth + ScaleWidth)), .Depth(LaneBits)) u_row (
+      .clk_i, .d_i({weight, scale}), .d_o({weight1, scale1}));
+  mote_valid #(.Depth(LaneBits)) u_valid1 (.clk_i, .rst_ni, .valid_i(kept_valid_o), .valid_o(valid1));
   mote_valid #(.Depth(1)) u_valid2 (.clk_i, .rst_ni, .valid_i(valid1), .valid_o(valid2));
-  mote_valid #(.Depth(2)) u_last2 (.clk_i, .rst_ni, .valid_i(kept_last), .valid_o(last2));
-  mote_delay #(.Width(Lanes * StateWidth), .Depth(2)) u_state2 (.clk_i, .d_i(kept_state_o), .d_o(state2));
+  mote_valid #(.Depth(LaneBits + 1)) u_last2 (.clk_i, .rst_ni, .valid_i(kept_last), .valid_o(last2));
+  mote_delay #(.Width(Lanes * StateWidth), .Depth(LaneBits + 1)) u_state2 (.clk_i, .d_i(kept_state_o), .d_o(state2));
   always_ff @(posedge clk_i) begin
-    most1_q   <= most;
-    weight1_q <= weight;
-    scale1_q  <= scale;
     if (starts || last2) first_row_q <= 1'b1;
     else if (valid1) first_row_q <= 1'b0;
     rise2_q   <= first_row_q ? 2'd3 : limited(risen);
-    if (valid1) most2_q <= most1_q;
+    if (valid1) most2_q <= most1;
     for (int l = 0; l < Lanes; l++)
       weight2_q[l*WeightWidth+:WeightWidth] <= lowered(
-          weight1_q[l*WeightWidth+:WeightWidth], limited(most1_q - $signed(scale1_q[l*ScaleWidth+:ScaleWidth])));
+          weight1[l*WeightWidth+:WeightWidth], limited(most1 - $signed(scale1[l*ScaleWidth+:ScaleWidth])));
   end
 
   // ---- estimates

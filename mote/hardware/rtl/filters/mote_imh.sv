@@ -26,7 +26,7 @@
 //          draws_i + Lanes burn_in_i <= 2^At (Folded: draws_i + burn_in_i); Most <= 2^At. Registers are read at start_i
 // timing   a row every Interval = T cycles; a step of r rows takes (r - 1) T + K_p + K_w + 1 cycles, exactly (IMH-HW 5.3 with
 //          T_p = T_w = T, T_D = 1; of pairs with T_D = 1/Lanes): K_p = 3 + Product + ProposeLatency, K_w = WeighLatency + 1 (Folded: WeighLatency + Lanes + 2); the estimate
-//          follows 6 + Product + Dims (ValueWidth + Extra + 1) cycles (1 + log2 Lanes more with several lanes) behind the last decision, of
+//          follows 6 + Product + Dims (ValueWidth + Extra + 1) cycles (2 log2 Lanes more with several lanes) behind the last decision, of
 //          a folded chain sooner or later, see imh.cpp. A step waits for an observation, and for the estimate of the
 //          step before the last to be taken. Overlapped: r + W - H cycles; r where n >= 2 W.
 //          ProposeLatency + WeighLatency >= 6; Interval = 1 where steps overlap
@@ -211,7 +211,7 @@ module mote_imh #(
       .write_state_i(kept_state_o));
 
   // ---- the model's arithmetic, and the chains, whose words begin 5 cycles before the log weight is there
-  localparam int unsigned Scaled = Lanes > 1 ? 4 : 3;  // from log weights to weights, the latency of mote_weight
+  localparam int unsigned Scaled = 3 + LaneBits;  // from log weights to weights, the latency of mote_weight
   localparam int unsigned Tap = ChainLatency < Scaled ? ChainLatency : Scaled;
   logic weighed_valid, weighed_first, decides, starts, keeps;
   logic [Lanes-1:0] accepts;
@@ -269,13 +269,15 @@ module mote_imh #(
     end
   end
 
-  // What a row moved the chains by; that they start is no move.
+  // What a row moved the chains by, counted a cycle later; that they start is no move.
   count_t decided_q, accepted_q, accepted_d, accepted, moves;
+  logic [Lanes-1:0] accepts_q;
+  logic counts_q, started_q;
   always_comb begin
     moves = '0;
-    for (int l = 0; l < Lanes; l++) moves = moves + (At + 1)'(accepts[l]);
+    for (int l = 0; l < Lanes; l++) moves = moves + (At + 1)'(accepts_q[l]);
   end
-  assign accepted_d = !starts ? accepted_q + moves : Folded == 1 ? moves : '0;
+  assign accepted_d = !started_q ? accepted_q + moves : Folded == 1 ? moves : '0;
   logic [SlotWidth-1:0] slot_q;
   logic kept_q, kept_first_q;
   assign starts = decided_q == '0;
@@ -295,12 +297,17 @@ module mote_imh #(
     end
   end
   always_ff @(posedge clk_i) begin
-    if (decides) accepted_q <= accepted_d;
+    {accepts_q, counts_q, started_q} <= {accepts, decides, starts};
+    if (counts_q) accepted_q <= accepted_d;
     kept_first_q <= decided_q == drop_q;
   end
   if (Overlapped == 1) begin : gen_accepted  // the next step's first decision comes at once
     count_t accepted_last_q;
-    always_ff @(posedge clk_i) if (decided_last) accepted_last_q <= accepted_d;
+    logic ended_q;
+    always_ff @(posedge clk_i) begin
+      ended_q <= decided_last;
+      if (ended_q) accepted_last_q <= accepted_d;
+    end
     assign accepted = accepted_last_q;
   end else begin : gen_accepted
     assign accepted = accepted_q;

@@ -7,8 +7,8 @@
 // formats  weights and their scales: mote_weight's, short_i for schemes 0 and 1; parent_o: lane l has child Lanes k + l
 // range    as mote_offspring; a run's first weight comes after starts_i. Schemes 1 and 2 draw no children unless more_i says,
 //          a cycle after last_i, that a step follows
-// timing   the first parents are there 10 + 3 Product + 2 log2 Lanes cycles after last_i, or when the first row with children is reached, by
-//          other schemes later; total_i stands 1 + log2 Lanes cycles after last_i
+// timing   the first parents are there 10 + 3 Product + 2 log2 Lanes cycles (several lanes: one more) after last_i, or when the first row with
+//          children is reached, by other schemes later; total_i stands 1 + log2 Lanes cycles after last_i
 // golden   mote/hardware/filters/resampler.hpp
 module mote_resample #(
     parameter int unsigned Lanes      = 1,

@@ -11,7 +11,7 @@
 // formats  states: Dims signed words of ValueWidth bits; log weights: signed, octaves, 10 fraction bits
 // range    Lanes 1, 2, 4 or 8; n_i a multiple of it, from Lanes to 2^At; At >= 6. Registers are read at start_i
 // timing   a particle every Interval cycles and lane, from the step's first chance on, as long as there are parents; a step's first are there 13 + 3 Product cycles (with several
-//          lanes 14 + 3 Product + 2 log2 Lanes) after its last state left weigh, or when its first row with children is
+//          lanes 14 + 3 Product + 3 log2 Lanes) after its last state left weigh, or when its first row with children is
 //          reached. The golden model counts cycles exactly
 // golden   mote/hardware/filters/sisr.hpp
 // source   FPGA (merged loops, dataflow); Kitagawa 1996
@@ -74,10 +74,10 @@ module mote_sisr #(
 );
   typedef logic [At:0] count_t;
 
-  localparam int unsigned WeightLatency = Lanes > 1 ? 4 : 3;
+  localparam int unsigned LaneBits = $clog2(Lanes);
+  localparam int unsigned WeightLatency = 3 + LaneBits;
 
   // ---- steps: each begins when the model has weighed the one before; of a lane
-  localparam int unsigned LaneBits = $clog2(Lanes);
   localparam int unsigned LaneWidth = Lanes > 1 ? LaneBits : 1;
   count_t n_q, issue_left_q, weigh_left_q;
   logic starts, begins, begun_q, issues_q, turn, issues, issues_last, first_q, parent_valid, unused_none_left;

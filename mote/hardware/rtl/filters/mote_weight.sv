@@ -13,7 +13,7 @@
 //
 // formats  log_weight_i: signed, LogWidth bits, 10 fraction bits, octaves; weight_o: unsigned, below 2^Width
 // error    2^-13 of the weight by the table, and 2^-Width of the scale by truncation
-// timing   latency 3, with several lanes 4; initiation interval 1. Log weights come from registers
+// timing   latency 3 + log2 Lanes, initiation interval 1. Log weights come from registers
 // golden   mote/hardware/filters/weights.hpp
 module mote_weight #(
     parameter int unsigned Lanes    = 1,
@@ -34,7 +34,7 @@ module mote_weight #(
     output logic [Lanes*18-1:0]          short_o,
     output logic signed [ScaleWidth-1:0] scale_o
 );
-  localparam int unsigned Before = Lanes > 1 ? 1 : 0;  // the stage that looks for a row's greatest
+  localparam int unsigned Before = $clog2(Lanes);  // stages that look for a row's greatest
   typedef logic signed [ScaleWidth-1:0] scale_t;
   // Differences of scales are never negative here.
   function automatic logic [1:0] limited(input logic [ScaleWidth-1:0] difference);
@@ -45,20 +45,18 @@ module mote_weight #(
   initial $readmemh(Table, table_rom);
 
   // The floors of lw / 8, one below the scale that each weight asks for, and the greatest of them.
-  logic [Lanes*LogWidth-1:0] log_weights;
-  scale_t floor, most_d, most;
+  localparam int unsigned FloorWidth = ScaleWidth - 1;
+  logic [Lanes*FloorWidth-1:0] floors, floors_then;
+  scale_t most;
   logic   valid, first;
-  always_comb begin
-    most_d = ScaleWidth'($signed(log_weight_i[LogWidth-1-:ScaleWidth-1]));
-    for (int l = 1; l < Lanes; l++) begin
-      floor = ScaleWidth'($signed(log_weight_i[(l+1)*LogWidth-1-:ScaleWidth-1]));
-      if (floor > most_d) most_d = floor;
-    end
-    if (Lanes == 1) floor = '0;
+  for (genvar l = 0; l < Lanes; l++) begin : gen_floor
+    assign floors[l*FloorWidth+:FloorWidth] = log_weight_i[(l+1)*LogWidth-1-:FloorWidth];
   end
+  mote_row #(.Lanes(Lanes), .Width(FloorWidth), .RowWidth(ScaleWidth), .Signed(1'b1), .Greatest(1'b1)) u_most (
+      .clk_i, .word_i(floors), .row_o(most));
   mote_valid #(.Depth(Before)) u_valid (.clk_i, .rst_ni, .valid_i, .valid_o(valid));
-  mote_delay #(.Width(ScaleWidth + 1 + Lanes * LogWidth), .Depth(Before)) u_row (
-      .clk_i, .d_i({most_d, first_i, log_weight_i}), .d_o({most, first, log_weights}));
+  mote_valid #(.Depth(Before)) u_first (.clk_i, .rst_ni, .valid_i(first_i), .valid_o(first));
+  mote_delay #(.Width(Lanes * FloorWidth), .Depth(Before)) u_floors (.clk_i, .d_i(floors), .d_o(floors_then));
 
   // The greatest so far; how far it rises.
   scale_t     level_q, level2_q;
@@ -77,19 +75,19 @@ module mote_weight #(
 
   // How far below the scale each weight is; shift.
   for (genvar l = 0; l < Lanes; l++) begin : gen_lane
-    logic signed [LogWidth-1:0] log_weight;
     scale_t      floor_q;
-    logic [2:0]  fine_q, fine2_q;
+    logic [2:0]  fine_q, fine, fine2_q;
     logic [1:0]  coarse2_q;
-    logic [11:0] power_q, power2_q;
-    assign log_weight = log_weights[l*LogWidth+:LogWidth];
+    logic [11:0] power_q, power, power2_q;
+    mote_delay #(.Width(15), .Depth(Before)) u_mantissa (.clk_i, .d_i({fine_q, power_q}), .d_o({fine, power}));
+    always_ff @(posedge clk_i or negedge rst_ni) begin  // a reset keeps them out of slow shift registers
+      if (!rst_ni) {floor_q, fine2_q, power2_q} <= '0;
+      else {floor_q, fine2_q, power2_q} <= {ScaleWidth'($signed(floors_then[l*FloorWidth+:FloorWidth])), fine, power};
+    end
     always_ff @(posedge clk_i) begin
-      floor_q   <= ScaleWidth'(log_weight >>> (Frac + 3));
-      fine_q    <= ~log_weight[Frac+2:Frac];
-      power_q   <= table_rom[log_weight[Frac-1:0]];
+      fine_q    <= ~log_weight_i[l*LogWidth+Frac+:3];
+      power_q   <= table_rom[log_weight_i[l*LogWidth+:Frac]];
       coarse2_q <= limited(level_q - floor_q);
-      fine2_q   <= fine_q;
-      power2_q  <= power_q;
       weight_o[l*Width+:Width] <= coarse2_q == 2'd3 ? '0
                                 : {1'b1, power2_q, {(Width - 13) {1'b0}}} >> {coarse2_q, 3'b0} >> fine2_q;
       short_o[l*18+:18] <= {level2_q[2:0] - 3'(coarse2_q), ~fine2_q, power2_q};
