@@ -63,12 +63,12 @@ class SurvivorStream {
   void mark(std::uint32_t from, std::size_t count) {
     const auto end = from + static_cast<std::uint32_t>(count);
     while (map_->first[next_block_] < end) {
+      skip_to(from);
       make_room();
       scan(next_block_++);
     }
     std::fill_n(starts_.data() + size_, kFence, std::numeric_limits<Whole>::max());
-    // the last survivor that begins at or before `from` fills up what comes before the next one
-    while (at_ + 1 < size_ && starts_[at_ + 1] <= static_cast<Whole>(from)) ++at_;
+    skip_to(from);
     flag(from, end);
   }
 
@@ -97,6 +97,11 @@ class SurvivorStream {
   static constexpr std::size_t kCapacity = 2 * kBlock + 64;
   static constexpr std::size_t kSlack = 64;  // room for whole vectors beyond the end
   static constexpr std::size_t kFence = 4;   // starts beyond the list's end that no child reaches: where flag() stops
+
+  /// The last survivor that begins at or before `from` fills up what comes before the next one.
+  void skip_to(std::uint32_t from) {
+    while (at_ + 1 < size_ && starts_[at_ + 1] <= static_cast<Whole>(from)) ++at_;
+  }
 
   void make_room() {
     if (size_ + kBlock <= kCapacity) return;

@@ -62,7 +62,7 @@ double worst_error(const std::vector<R>& weights, const std::vector<double>& cou
   return worst;
 }
 
-enum class Kind { kUneven, kSparse, kOne, kLast, kEqual };
+enum class Kind { kUneven, kSparse, kOne, kLast, kEqual, kThin };
 
 template <class R>
 std::vector<R> weights_of(Kind kind, std::size_t n) {
@@ -76,6 +76,10 @@ std::vector<R> weights_of(Kind kind, std::size_t n) {
                           : kind == Kind::kSparse && e > 5 ? e
                                                            : 0);
   }
+  if (kind == Kind::kThin) {  // a child for each, but for most of every other block; the last particle has theirs
+    for (std::size_t i = 0; i < n; ++i) w[i] = i / kBlock % 2 == 0 || i % kBlock < 300 ? 1 : 0;
+    w[n - 1] += static_cast<R>(std::count(w.begin(), w.end(), R(0)));
+  }
   if (kind == Kind::kOne) w[n / 3] = 1;
   if (kind == Kind::kLast || (kind == Kind::kSparse && n < 5000)) w[n - 1] = 1;
   return w;
@@ -85,7 +89,7 @@ std::vector<R> weights_of(Kind kind, std::size_t n) {
 // precision, so a count may miss by a child and 1e-3 more.
 template <class R>
 void expect_systematic_counts() {
-  for (const Kind kind : {Kind::kUneven, Kind::kSparse, Kind::kOne, Kind::kLast, Kind::kEqual})
+  for (const Kind kind : {Kind::kUneven, Kind::kSparse, Kind::kOne, Kind::kLast, Kind::kEqual, Kind::kThin})
     for (const std::size_t n : {std::size_t{1}, std::size_t{7}, std::size_t{1000}, std::size_t{1024}, std::size_t{5000},
                                 std::size_t{100000}}) {
       const auto weights = weights_of<R>(kind, n);
@@ -105,10 +109,13 @@ TEST(SurvivorStream, GivesEveryParticleItsExpectedChildren) {
 }
 
 TEST(SurvivorStream, SharesOfTheWorkGiveTheSameChildren) {
-  for (const Kind kind : {Kind::kUneven, Kind::kSparse, Kind::kOne, Kind::kLast}) {
+  std::vector<std::size_t> single(98);
+  std::iota(single.begin(), single.end(), std::size_t{0});
+  for (const Kind kind : {Kind::kUneven, Kind::kSparse, Kind::kOne, Kind::kLast, Kind::kEqual, Kind::kThin}) {
     const Weighted<float> particles(weights_of<float>(kind, 100000));
     const auto whole = particles.children(0.3, {0});
     EXPECT_EQ(particles.children(0.3, {0, 1, 2, 40, 97}), whole);
+    EXPECT_EQ(particles.children(0.3, single), whole);
   }
 }
 
