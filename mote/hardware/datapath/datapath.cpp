@@ -181,7 +181,7 @@ class Ports {
  public:
   explicit Ports(std::size_t rows) : rows_(rows) {}
   void standing(std::int64_t word) {
-    kept_.push_back(std::vector<Word>(rows_, word));
+    kept_.emplace_back(rows_, word);
     columns_.emplace_back(kept_.back());
   }
   void column(std::span<const std::int64_t> column) { columns_.emplace_back(column); }
@@ -228,10 +228,12 @@ std::string slice(const std::string& bus, int at, int width) {
 Connections state_connections(const Datapath& datapath, const std::string& bus, const char* end, unsigned carried) {
   Connections all;
   const auto width = static_cast<int>(datapath.arithmetic.formats.value_bits);
-  const std::size_t dims = datapath.states.size();
-  for (std::size_t k = 0; k < dims + carried; ++k)
-    all.emplace_back((k < dims ? "state" : "before") + std::to_string(k % dims) + end,
-                     slice(bus, static_cast<int>(k) * width, width));
+  const auto connect = [&](const char* name, std::size_t count) {
+    for (std::size_t d = 0; d < count; ++d)
+      all.emplace_back(name + std::to_string(d) + end, slice(bus, static_cast<int>(all.size()) * width, width));
+  };
+  connect("state", datapath.states.size());
+  connect("before", carried);
   return all;
 }
 
