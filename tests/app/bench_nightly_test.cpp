@@ -15,7 +15,8 @@ double least_ratio(const std::string& task) {
   const Scratch scratch;
   const Ended ended = scratch.shell("mote bench " + task + " -n 10000 --repeats 21 --json r.json");
   if (ended.code != 0) throw std::runtime_error(ended.err);  // a wrong answer ends with code 1
-  for (const Json& result : Json::parse(scratch.read("r.json"))["tasks"][0]["results"])
+  const Json report = Json::parse(scratch.read("r.json"));
+  for (const Json& result : report["tasks"][0]["results"])
     if (result["contender"] == "baseline") return 1 / result["ratio_to_first_interval"][1].get<double>();
   throw std::runtime_error("no baseline in " + task);
 }

@@ -20,7 +20,9 @@ TEST(Graph, ShowsEveryModel) {
     EXPECT_NE(ended.out.find("add\n"), std::string::npos) << ended.out;
     EXPECT_NE(scratch.read("l.txt").find("log_likelihood = v"), std::string::npos);
     EXPECT_TRUE(scratch.read("d.dot").starts_with("digraph"));
-    for (const Json& vertex : Json::parse(scratch.read("j.json"))["vertices"]) {
+    const Json graph = Json::parse(scratch.read("j.json"));
+    EXPECT_GT(graph["vertices"].size(), 5U);
+    for (const Json& vertex : graph["vertices"]) {
       EXPECT_LE(vertex["range"][0], vertex["seen"][0]) << vertex;
       EXPECT_GE(vertex["range"][1], vertex["seen"][1]) << vertex;
     }
