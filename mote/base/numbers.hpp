@@ -53,7 +53,7 @@ SinCos<S> sin_cos(const S& angle) {
 /// unit    in, out: rad
 /// cost    one floor, two products
 template <class S>
-S wrap(const S& angle) {
+[[gnu::always_inline]] inline S wrap(const S& angle) {
   return angle - S(2 * kPi) * floor(angle * S(0.5 / kPi) + S(0.5));
 }
 

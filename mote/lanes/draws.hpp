@@ -110,33 +110,63 @@ template <>
 class NormalPolynomials<float> {
  public:
   MOTE_INLINE NormalPolynomials() : table_(&normal_table()) {
-    for (std::size_t j = 0; j < c_.size(); ++j) c_[j] = Registers<float>::load(table_->narrow[j].data());
+    for (std::size_t j = 0; j < c_.size(); ++j) {
+      c_[j] = Registers<float>::load(table_->narrow[j].data());
+#if HWY_TARGET == HWY_AVX2
+      // the upper octaves have the entries 6 to 13, the lower ones 14, 15 and 0 to 5
+      const auto [first, second] = c_[j].r;
+      c_[j].r = {Registers<float>::Register{_mm256_blend_ps(first.raw, second.raw, 0x3F)}, Registers<float>::Register {
+                   _mm256_blend_ps(second.raw, first.raw, 0x3F)
+                 }};
+#endif
+    }
   }
 
-  /// |z| for the numbers u = p 2^32 given by their bits.
-  MOTE_INLINE Vector<float> operator()(const Registers<std::uint32_t>& u) const {
-    using Tag = Registers<std::uint32_t>::Tag;
-    const auto v = Registers<std::uint32_t>::map(
-        [](auto x) { return hn::OrAnd(hn::Set(Tag{}, 0x3F800000U), x, hn::Set(Tag{}, 0x7FFFFFU)); }, u);
-    const Vector<float> s = Vector<float>(v.template as<float>()) - Vector<float>(1.5F);
-    const auto exponent = Registers<std::uint32_t>::map([](auto x) { return hn::ShiftRight<23>(x); }, u);
-    return horner<NormalTable::kDegreeFloat>(
-        s, [&](std::size_t j) __attribute__((always_inline)) { return entry(j, exponent); });
+  /// |z| for the numbers u = p 2^32.
+  MOTE_INLINE Vector<float> operator()(const Registers<float>& u) const {
+    Vector<float> least(u);
+    return (*this)(u, least);
+  }
+  /// The same; `least` becomes no more than any of them that is far in the tail.
+  MOTE_INLINE Vector<float> operator()(const Registers<float>& u, Vector<float>& least) const {
+    const auto bits = u.template as<std::uint32_t>();
+    const Vector<float> s = offset(bits);
+    const auto exponent = Registers<std::uint32_t>::map([](auto x) { return hn::ShiftRight<23>(x); }, bits);
+    const auto z = [&](std::size_t part) __attribute__((always_inline)) {
+      return horner<NormalTable::kDegreeFloat>(
+          s, [&](std::size_t j) __attribute__((always_inline)) { return entry(j, part, exponent); });
+    };
+#if HWY_TARGET == HWY_AVX2
+    // one look-up has eight octaves, and few draws lie below them
+    const Mask<float> low = Vector<float>(u) < Vector<float>(0x1p23F);
+    if (__builtin_expect(low.any(), 0)) {
+      least = min(least, Vector<float>(u));
+      return select(low, z(1), z(0));
+    }
+#else
+    least = min(least, Vector<float>(u));
+#endif
+    return z(0);
   }
 
  private:
-  MOTE_INLINE Vector<float> entry(std::size_t j, const Registers<std::uint32_t>& exponent) const {
+  /// s of the polynomials.
+  static MOTE_INLINE Vector<float> offset(const Registers<std::uint32_t>& u) {
+    using Tag = Registers<std::uint32_t>::Tag;
+    const auto v = Registers<std::uint32_t>::map(
+        [](auto x) { return hn::OrAnd(hn::Set(Tag{}, 0x3F800000U), x, hn::Set(Tag{}, 0x7FFFFFU)); }, u);
+    return Vector<float>(v.template as<float>()) - Vector<float>(1.5F);
+  }
+  /// Coefficients j of the octaves; AVX2: of the upper eight (part 0) or the lower eight (part 1).
+  MOTE_INLINE Vector<float> entry(std::size_t j, [[maybe_unused]] std::size_t part,
+                                  const Registers<std::uint32_t>& exponent) const {
 #if HWY_TARGET <= HWY_AVX3
     using Register = Registers<float>::Register;
     return Vector<float>(Registers<float>{{ Register { _mm512_permutexvar_ps(exponent.r[0].raw, c_[j].r[0].raw) } }});
 #elif HWY_TARGET == HWY_AVX2
+    // an entry is found by its exponent mod 8, which is 6 for the lowest octave of each part
     return Vector<float>(Registers<float>::map(
-        [&](auto e) {
-          const __m256 low = _mm256_permutevar8x32_ps(c_[j].r[0].raw, e.raw);
-          const __m256 high = _mm256_permutevar8x32_ps(c_[j].r[1].raw, e.raw);
-          const __m256 which = _mm256_castsi256_ps(_mm256_slli_epi32(e.raw, 28));  // bit 3 of the exponent as sign
-          return Registers<float>::Register{_mm256_blendv_ps(low, high, which)};
-        },
+        [&](auto e) { return Registers<float>::Register{_mm256_permutevar8x32_ps(c_[j].r[part].raw, e.raw)}; },
         exponent));
 #else
     return Vector<float>(Registers<float>::map(
@@ -185,45 +215,44 @@ class NormalPolynomials<double> {
         });
   }
 #else
-  MOTE_INLINE Vector<double> operator()(const Registers<std::uint64_t>& u) const { return from(table_->wide, u); }
-  MOTE_INLINE Vector<double> low(const Registers<std::uint64_t>& u) const { return from(table_->wide_low, u); }
+  /// |z| for the numbers u = p 2^64, p >= 2^-17, given by their bits.
+  MOTE_INLINE Vector<double> operator()(const Registers<std::uint64_t>& u) const {
+    return Vector<double>(Registers<double>::map([&](auto x) { return of(x); }, u));
+  }
 
  private:
-  using Part = std::array<std::array<double, 8>, NormalTable::kDegreeDouble + 1>;
+  static_assert(NormalTable::kDegreeFine == 3);
+  using Number = Registers<double>::Tag;
+  using Register = Registers<double>::Register;
 
-  static MOTE_INLINE Vector<double> from(const Part& part, const Registers<std::uint64_t>& u) {
-    using Tag = Registers<std::uint64_t>::Tag;
-    const auto v = Registers<std::uint64_t>::map(
-        [](auto x) { return hn::OrAnd(hn::Set(Tag{}, 0x3FF0000000000000ULL), x, hn::Set(Tag{}, 0xFFFFFFFFFFFFFULL)); },
-        u);
-    const Vector<double> s = Vector<double>(v.template as<double>()) - Vector<double>(1.5);
-    const auto exponent = Registers<std::uint64_t>::map([](auto x) { return hn::ShiftRight<52>(x); }, u);
-    return horner<NormalTable::kDegreeDouble>(
-        s, [&](std::size_t j) __attribute__((always_inline)) { return entry(part[j], exponent); });
-  }
-  static MOTE_INLINE Vector<double> entry(const std::array<double, 8>& row, const Registers<std::uint64_t>& exponent) {
+  MOTE_INLINE Register of(Registers<std::uint64_t>::Register u) const {
+    constexpr Registers<std::uint64_t>::Tag bits;
+    constexpr std::uint64_t kPiece = (std::uint64_t{1} << (52 - NormalTable::kFineBits)) - 1;  // of the mantissa
+    const auto v = hn::OrAnd(hn::Set(bits, 0x3FF0000000000000ULL), u, hn::Set(bits, kPiece));
+    const Register s = hn::Sub(hn::BitCast(Number{}, v), hn::Set(Number{}, 1.0 + NormalTable::kFineHalf));
+    // where the row of octave and piece begins
+    constexpr std::uint64_t kRows = std::uint64_t{NormalTable::kOctaves} << NormalTable::kFineBits;
+    alignas(32) std::array<std::uint64_t, Registers<double>::kPerRegister> begin;
+    hn::Store(hn::And(hn::ShiftRight<50 - NormalTable::kFineBits>(u), hn::Set(bits, 4 * kRows - 4)), bits,
+              begin.data());
+    // rows become columns: two neighbouring coefficients of lanes 0 and 2, and of 1 and 3
+    const auto two_of = [&](std::size_t lane, std::size_t j) __attribute__((always_inline)) {
+      const double* const row = table_->fine[0].data() + j;
 #if HWY_TARGET == HWY_AVX2
-    return Vector<double>(Registers<double>::map(
-        [&](auto e) {
-          // a double is two floats: 2 e and 2 e + 1 in the halves of the lane
-          const __m256i twice = _mm256_add_epi64(e.raw, e.raw);
-          const __m256i pair = _mm256_or_si256(_mm256_or_si256(twice, _mm256_slli_epi64(twice, 32)),
-                                               _mm256_set1_epi64x(std::int64_t{1} << 32U));
-          const __m256 low = _mm256_permutevar8x32_ps(_mm256_load_ps(reinterpret_cast<const float*>(row.data())), pair);
-          const __m256 high =
-              _mm256_permutevar8x32_ps(_mm256_load_ps(reinterpret_cast<const float*>(row.data() + 4)), pair);
-          const __m256d which = _mm256_castsi256_pd(_mm256_slli_epi64(e.raw, 61));  // bit 2 of the exponent as sign
-          return Registers<double>::Register{_mm256_blendv_pd(_mm256_castps_pd(low), _mm256_castps_pd(high), which)};
-        },
-        exponent));
+      const __m256d low = _mm256_castpd128_pd256(_mm_load_pd(row + begin[lane]));
+      return Register{_mm256_insertf128_pd(low, _mm_load_pd(row + begin[lane + 2]), 1)};
 #else
-    return Vector<double>(Registers<double>::map(
-        [&](auto e) {
-          const Registers<std::int64_t>::Tag tag;
-          return hn::GatherIndex(Registers<double>::Tag{}, row.data(), hn::And(hn::BitCast(tag, e), hn::Set(tag, 7)));
-        },
-        exponent));
+      return Register{_mm_load_pd(row + begin[lane])};
 #endif
+    };
+    const Register even_high = two_of(0, 2);
+    const Register odd_high = two_of(1, 2);
+    Register z =
+        hn::MulAdd(hn::InterleaveUpper(Number{}, even_high, odd_high), s, hn::InterleaveLower(even_high, odd_high));
+    const Register even = two_of(0, 0);
+    const Register odd = two_of(1, 0);
+    z = hn::MulAdd(z, s, hn::InterleaveUpper(Number{}, even, odd));
+    return hn::MulAdd(z, s, hn::InterleaveLower(even, odd));
   }
 #endif
 
@@ -245,14 +274,22 @@ class VectorDraw {
     }
   }
 
+  /// Whether near_normal() pays: AVX-512 looks up doubles in two tables, the second of which is rare.
+  static constexpr bool kHasNear = std::is_same_v<R, float> || HWY_TARGET > HWY_AVX3;
+
   /// A normal number unless it is far in the tail, and then `least` is left below kTail: see make_ready().
-  MOTE_INLINE Vector<R> near_normal(Vector<R>& least) requires std::is_same_v<R, float> {
-    const auto bits = halves(generators_.next());
-    const Registers<float> u = magnitude(bits);
-    least = min(least, Vector<float>(u));
-    return signed_as(polynomials_(u.template as<std::uint32_t>()), bits);
+  MOTE_INLINE Vector<R> near_normal(Vector<R>& least) requires kHasNear {
+    if constexpr (std::is_same_v<R, float>) {
+      const auto bits = halves(generators_.next());
+      return signed_as(polynomials_(magnitude(bits), least), bits);
+    } else {
+      const auto bits = generators_.next();
+      const Registers<double> u = magnitude(bits);
+      least = min(least, Vector<double>(u));
+      return signed_as(polynomials_(u.template as<std::uint64_t>()), bits);
+    }
   }
-  static constexpr float kTail = 32768;
+  static constexpr R kTail = std::is_same_v<R, float> ? R(0x1p15) : R(0x1p47);  ///< 2^-17 of all magnitudes
 
   MOTE_INLINE Vector<R> uniform() {
     if constexpr (std::is_same_v<R, float>) {
@@ -341,8 +378,10 @@ class VectorDraw {
 #endif
   }
 
-  /// p 2^64 of the magnitude m; rounded up it would be 2^63.
-  static MOTE_INLINE Registers<double> magnitude(const Registers<std::uint64_t>& m) {
+  /// p 2^64 of the draw's magnitude; rounded up it would be 2^63.
+  static MOTE_INLINE Registers<double> magnitude(const Registers<std::uint64_t>& bits) {
+    const auto m = Registers<std::uint64_t>::map(
+        [](auto b) { return hn::And(b, hn::Set(Registers<std::uint64_t>::Tag{}, 0x7FFFFFFFFFFFFFFFULL)); }, bits);
 #if HWY_TARGET <= HWY_AVX3
     return {
         {Registers<double>::Register{_mm512_cvt_roundepi64_pd(m.r[0].raw, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC)}}};
@@ -360,25 +399,23 @@ class VectorDraw {
   MOTE_INLINE Vector<float> normal_float() {
     const auto bits = halves(generators_.next());
     const Registers<float> u = magnitude(bits);
-    Vector<float> z = polynomials_(u.template as<std::uint32_t>());
+    Vector<float> z = polynomials_(u);
     const Mask<float> rare = Vector<float>(u) < Vector<float>(kTail);
     if (__builtin_expect(rare.any(), 0)) z = tail(z, bits, generators_.refinement(), rare.bits());
     return signed_as(z, bits);
   }
 
   MOTE_INLINE Vector<double> normal_double() {
-    using U = Registers<std::uint64_t>;
-    using Tag = U::Tag;
-    const U bits = generators_.next();
-    const U m = U::map([](auto b) { return hn::And(b, hn::Set(Tag{}, 0x7FFFFFFFFFFFFFFFULL)); }, bits);
-    const Registers<double> u = magnitude(m);
+    const auto bits = generators_.next();
+    const Registers<double> u = magnitude(bits);
     Vector<double> z = polynomials_(u.template as<std::uint64_t>());
+#if HWY_TARGET <= HWY_AVX3
     const Mask<double> low = Vector<double>(u) < Vector<double>(0x1p55);
-    if (__builtin_expect(low.any(), 0)) {
-      z = select(low, polynomials_.low(u.template as<std::uint64_t>()), z);
-      const Mask<double> rare = Vector<double>(u) < Vector<double>(0x1p47);
-      if (__builtin_expect(rare.any(), 0)) z = tail(z, bits, generators_.refinement(), rare.bits());
-    }
+    if (__builtin_expect(!low.any(), 1)) return signed_as(z, bits);
+    z = select(low, polynomials_.low(u.template as<std::uint64_t>()), z);
+#endif
+    const Mask<double> rare = Vector<double>(u) < Vector<double>(kTail);
+    if (__builtin_expect(rare.any(), 0)) z = tail(z, bits, generators_.refinement(), rare.bits());
     return signed_as(z, bits);
   }
 

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "mote/lanes/ready_draws.hpp"
+
 namespace mote::lanes {
 namespace {
 
@@ -34,6 +36,36 @@ TEST(VectorDraw, UniformNumbersAreTheScalarOnesBitForBit) {
 TEST(VectorDraw, NormalNumbersAreTheScalarOnesWithinTheTablesError) {
   expect_same_draws<float>([](auto& d) { return d.normal(); }, [](auto& d) { return d.normal(); }, 6e-6);
   expect_same_draws<double>([](auto& d) { return d.normal(); }, [](auto& d) { return d.normal(); }, 2e-9);
+}
+
+/// Numbers made ahead are those drawn one by one, bit for bit, also in blocks that reach far into the tail.
+template <class R>
+void expect_same_made_ahead(std::size_t draws) {
+  const DrawPattern pattern{std::vector<bool>(draws, true)};
+  std::vector<R> ahead(draws * kBlock);
+  std::array<R, kWidth<R>> lane{};
+  std::size_t tails = 0;
+  for (std::uint32_t block = 0; block < 400; ++block) {
+    const Address address{42, 7, Purpose::kTest, block};
+    VectorDraw<R> source(address);
+    make_ready(source, pattern, kBlock, ahead.data());
+    VectorDraw<R> one(address);
+    for (std::size_t at = 0; at < kBlock; at += kWidth<R>)
+      for (std::size_t k = 0; k < draws; ++k) {
+        one.normal().store(lane.data());
+        for (std::size_t i = 0; i < kWidth<R>; ++i) {
+          ASSERT_EQ(ahead[k * kBlock + at + i], lane[i]) << block;
+          if (std::abs(lane[i]) > R(4.33)) ++tails;  // Phi(-4.33) < 2^-17
+        }
+      }
+  }
+  EXPECT_GT(tails, 0U);
+}
+TEST(VectorDraw, NumbersMadeAheadAreThoseDrawnOneByOne) {
+  for (const std::size_t draws : {1, 3}) {
+    expect_same_made_ahead<float>(draws);
+    expect_same_made_ahead<double>(draws);
+  }
 }
 
 template <class R>

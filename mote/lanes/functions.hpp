@@ -119,16 +119,22 @@ MOTE_INLINE Vector<R> exp2_weight(const Vector<R>& t) {
         t);
   }
 #else
-  // below 2^least the weight of a particle is nothing beside the heaviest of its block
-  const Vector<R> bounded = max(Vector<R>(2 - detail::kBias<R>), t);
-  const Vector<R> n = round(bounded);
+  // The sum with 1.5 times 2^23 (2^52) is rounded to a whole number, which it has in its lowest bits: with the bias,
+  // those of the exponent of 2^n. Exponent 0 is that of 0: below 2^-126 (2^-1022) a weight is nothing beside the
+  // block's largest.
+  constexpr R kRounder = (std::is_same_v<R, float> ? R(0x1.8p23) : R(0x1.8p52)) + detail::kBias<R>;
+  const Vector<R> bounded = max(Vector<R>(-detail::kBias<R>), t);
+  const Vector<R> biased = bounded + Vector<R>(kRounder);
+  const Vector<R> f = bounded - (biased - Vector<R>(kRounder));
   Vector<R> p;
   if constexpr (std::is_same_v<R, float>) {
-    p = detail::polynomial(bounded - n, detail::kExp2Float);
+    p = detail::polynomial(f, detail::kExp2Float);
   } else {
-    p = detail::polynomial(bounded - n, detail::kExp2Double);
+    p = detail::polynomial(f, detail::kExp2Double);
   }
-  return select(t < Vector<R>(2 - detail::kBias<R>), Vector<R>(0), p * detail::power_of_two(n));
+  const auto power = Registers<detail::Whole<R>>::map([](auto x) { return hn::ShiftLeft<detail::kMantissaBits<R>>(x); },
+                                                      biased.parts.template as<detail::Whole<R>>());
+  return p * Vector<R>(power.template as<R>());
 #endif
 }
 

@@ -39,16 +39,18 @@ NormalTable build() {
     const int exponent = 127 + 32 - 1 - octave;
     for (std::size_t j = 0; j < narrow.size(); ++j)
       table.narrow[j][static_cast<std::size_t>(exponent % 16)] = static_cast<float>(narrow[j]);
-    const auto wide = interpolant<NormalTable::kDegreeDouble>(scale, 1.5, 0.5);
     const int wide_exponent = 1023 + 64 - 1 - octave;
-    auto& part = octave <= 8 ? table.wide : table.wide_low;
-    for (std::size_t j = 0; j < wide.size(); ++j) part[j][static_cast<std::size_t>(wide_exponent % 8)] = wide[j];
     auto& halves = octave <= 8 ? table.halves : table.halves_low;
     for (const int half : {0, 1}) {
       const auto c = interpolant<NormalTable::kDegreeHalves>(scale, 1.25 + 0.5 * half, 0.25);
       for (std::size_t j = 0; j < c.size(); ++j)
         halves[j][static_cast<std::size_t>(2 * (wide_exponent % 8) + half)] = c[j];
     }
+    constexpr int kPieces = 1 << NormalTable::kFineBits;
+    for (int piece = 0; piece < kPieces; ++piece)
+      table.fine[static_cast<std::size_t>(kPieces * (wide_exponent % 16) + piece)] =
+          interpolant<NormalTable::kDegreeFine>(scale, 1 + (2 * piece + 1) * NormalTable::kFineHalf,
+                                                NormalTable::kFineHalf);
   }
   return table;
 }

@@ -65,15 +65,16 @@ MOTE_INLINE void make_alike(std::size_t draws, std::size_t count, R* numbers, co
 
 /// Normal numbers for the next `count` particles, none of them far in the tail; false if one was, and then nothing has
 /// been drawn: a loop without a rare branch is the faster one, and few blocks meet a tail.
-[[gnu::flatten, gnu::noinline]] inline bool make_near_normals(VectorDraw<float>& source, std::size_t draws,
-                                                              std::size_t count, float* numbers) {
-  VectorDraw<float> draw = source;
-  Vector<float> least(VectorDraw<float>::kTail);
+template <class R>
+[[gnu::flatten, gnu::noinline]] bool make_near_normals(VectorDraw<R>& source, std::size_t draws, std::size_t count,
+                                                       R* numbers) {
+  VectorDraw<R> draw = source;
+  Vector<R> least(VectorDraw<R>::kTail);
   if (draws == 1)
     make_alike(1, count, numbers, [&] { return draw.near_normal(least); });
   else
     make_alike(draws, count, numbers, [&] { return draw.near_normal(least); });
-  if ((least < Vector<float>(VectorDraw<float>::kTail)).any()) return false;
+  if ((least < Vector<R>(VectorDraw<R>::kTail)).any()) return false;
   source = draw;
   return true;
 }
@@ -84,7 +85,7 @@ template <class R>
                                                 R* numbers) {
   const std::size_t draws = pattern.normal.size();
   const bool all_normal = std::find(pattern.normal.begin(), pattern.normal.end(), false) == pattern.normal.end();
-  if constexpr (std::is_same_v<R, float>)
+  if constexpr (VectorDraw<R>::kHasNear)
     if (all_normal && make_near_normals(source, draws, count, numbers)) return;
   VectorDraw<R> draw = source;
   if (all_normal) {

@@ -134,9 +134,9 @@ struct Mask {
     return out;
   }
   MOTE_INLINE bool any() const {
-    bool some = false;
-    for (const auto& part : r) some = some || !hn::AllFalse(typename Parts::Tag{}, part);
-    return some;
+    Register some = r[0];
+    for (std::size_t k = 1; k < r.size(); ++k) some = hn::Or(some, r[k]);
+    return !hn::AllFalse(typename Parts::Tag{}, some);
   }
 };
 

@@ -129,9 +129,10 @@ struct Bearings {
   /// Scale of one bearing error, in rad, widened for errors that repeat: sigma_r sqrt((1 + c) / (1 - c)).
   double scale() const { return p.sigma_r * std::sqrt((1 + p.correlation) / (1 - p.correlation)); }
 
-  /// The bearing error of a row that sees the state x, in rad.
+  /// The bearing error of a row that sees the state x, in rad; inlined, or the SIMD engine's loop over particles would
+  /// hand a state over through memory.
   template <class S>
-  S error(const State<S>& x, const Row<S>& y) const {
+  [[gnu::always_inline]] S error(const State<S>& x, const Row<S>& y) const {
     using namespace numbers;
     const S azimuth = atan2(x[2] - y[2], x[0] - y[1]);
     return wrap(y[0] + y[3] - azimuth + bend(azimuth - y[3]));

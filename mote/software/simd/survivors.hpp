@@ -5,7 +5,6 @@
 /// particle; survivors are kept in order in a short list; a block of children is written by running along that list.
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
