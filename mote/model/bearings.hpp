@@ -118,8 +118,10 @@ struct Bearings {
   /// Standard deviation of the second acceleration, in m/s^2.
   double across() const { return p.sigma_across > 0 ? p.sigma_across : p.sigma_u; }
 
+  // Inlined with what it calls: or the SIMD engine's loop over particles would hand states over through memory, and take
+  // a logarithm of the parameters for each.
   template <class S>
-  S log_likelihood(Step, const State<S>& x, const Row<S>& y) const {
+  [[gnu::always_inline]] S log_likelihood(Step, const State<S>& x, const Row<S>& y) const {
     const NormalDensity normal(scale() * scale());
     if (!y.seen(0)) return S(0);
     const S residual = error(x, y);
@@ -129,8 +131,7 @@ struct Bearings {
   /// Scale of one bearing error, in rad, widened for errors that repeat: sigma_r sqrt((1 + c) / (1 - c)).
   double scale() const { return p.sigma_r * std::sqrt((1 + p.correlation) / (1 - p.correlation)); }
 
-  /// The bearing error of a row that sees the state x, in rad; inlined, or the SIMD engine's loop over particles would
-  /// hand a state over through memory.
+  /// The bearing error of a row that sees the state x, in rad.
   template <class S>
   [[gnu::always_inline]] S error(const State<S>& x, const Row<S>& y) const {
     using namespace numbers;
