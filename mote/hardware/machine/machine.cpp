@@ -126,8 +126,10 @@ Machine::Machine(ModelCircuit model, const Architecture& architecture, const Run
 }
 
 unsigned Machine::stages() const {
-  return architecture_->stages + architecture_->stages_a_lane * capacity_.lanes + formats().propose_latency +
-         formats().weigh_latency + (architecture_->chain ? formats().product_latency - 1 : 0);
+  const unsigned own = architecture_->stages + architecture_->stages_a_lane * capacity_.lanes;
+  const auto turn = static_cast<unsigned>(architecture_->fed(capacity_).turn_latency());
+  return own + formats().propose_latency + formats().weigh_latency +
+         (architecture_->chain ? formats().product_latency - 1 + turn : 0);
 }
 
 int Machine::particle_bits() const { return as_int(capacity_.lanes * formats().dims * formats().value_bits); }
