@@ -38,6 +38,12 @@ Compound exponential(const Format& x, const Format& y, const FunctionOptions& op
 /// (cos x, sin x), x in radians.
 Compound cosine_and_sine(const Format& x, const Format& y, const FunctionOptions& options = {});
 
+/// y = tan(x), x in radians. Within 2^-(2 integer + fraction + 2) of a pole, by bits of y, it saturates with either
+/// sign.
+///
+/// shape   y: signed, from 1 integer bit on
+Compound tangent(const Format& x, const Format& y, const FunctionOptions& options = {});
+
 /// y = atan2(b, a), the angle of the point (a, b), in radians; (0, 0) has angle 0, and (a, 0) with a < 0 has pi.
 ///
 /// shape   a and b: one format; y: signed, 2 integer bits

@@ -71,7 +71,6 @@ Connections weigh_connections(const Datapath& datapath);
 
 /// A model's datapath. Words are as short as the samples allow (precision.hpp).
 ///
-/// error   Refusal (kWrongUse) naming the vertex that no circuit exists for
 /// cost    a second: tables are fitted
 Datapath datapath(const graph::Recorded& recorded, const Samples& samples, const DatapathOptions& options = {});
 

@@ -178,6 +178,8 @@ int operator_cost(const Plan& plan, const Precision& precision, Id id) {
     case Op::kSin:
     case Op::kCos:
       return cost(3 * operand(0) + 4 * width, 3, 16);
+    case Op::kTan:
+      return cost(8 * operand(0) + 2 * width, 4, 24);
     case Op::kAtan:
       return cost(2 * operand(0), 2, 10);
     case Op::kAtan2:
