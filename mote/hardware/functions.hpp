@@ -17,7 +17,8 @@ enum class Form { kTable, kCordic };
 struct FunctionOptions {
   Form form = Form::kTable;
   Multiplier multiplier = Multiplier::kDsp;
-  int interval = 1;  ///< clocks from one word to the next
+  int interval = 1;           ///< clocks from one word to the next
+  bool logic_tables = false;  ///< tables of all values stay out of blocks of memory
 };
 
 /// y = 1 / x. 0 is taken for one step of x.

@@ -35,7 +35,7 @@ class Builder {
         recorded_(recorded),
         precision_(precision),
         options_(options),
-        functions_({options.form, options.multiplier, options.interval}) {
+        functions_({options.form, options.multiplier, options.interval, options.logic_tables}) {
     if (options.fuse) fused_ = fused(plan, precision, functions_.options());
   }
 

@@ -103,7 +103,8 @@ class Search {
     const auto function = function_between(plan_, source, root);
     const Format& x = precision_.formats[source];
     if (x.width() > kWidest) return {};
-    return cheapest_table(function, x, precision_.formats[root], folds(function, x), options_.multiplier);
+    const auto unit = cheapest_table(function, x, precision_.formats[root], folds(function, x), options_.multiplier);
+    return unit && options_.logic_tables ? unit->in_logic() : unit;
   }
 
   /// How a function's table may be folded: by its symmetry, if it has one.

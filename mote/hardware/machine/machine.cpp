@@ -225,6 +225,7 @@ std::vector<Parameter> Machine::parameters() const {
                              parameter("Product", as_int(f.product_latency)),
                              parameter("Seed", 64, seed_)};
   if (f.interval > 1) all.push_back(parameter("Interval", as_int(f.interval)));
+  if (capacity_.variant.logic_tables) all.push_back(parameter("TableLogic", true));
   if (f.carried > 0) all.push_back(parameter("CarryWidth", as_int(f.carried * f.value_bits)));
   for (const Parameter& one : architecture_->parameters(capacity_)) all.push_back(one);
   return all;

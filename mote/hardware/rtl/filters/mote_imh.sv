@@ -55,6 +55,7 @@ module mote_imh #(
     parameter int unsigned Stream         = 0,
     parameter int unsigned Product        = 1,
     parameter Exp2Table                   = "exp2.hex",
+    parameter bit TableLogic              = 1'b0,
     parameter Log2Table                   = "log2.hex",
     localparam int unsigned ScaleWidth = LogWidth - 12,
     localparam int unsigned SumWidth   = WeightWidth + At,
@@ -336,7 +337,7 @@ module mote_imh #(
   logic [Lanes*StateWidth-1:0] inferred_state, kept;
   logic signed [ScaleWidth-1:0] scaled_scale, scale;
   logic kept_valid, kept_first;
-  mote_weight #(.Lanes(Lanes), .LogWidth(LogWidth), .Width(WeightWidth), .Table(Exp2Table)) u_weight (
+  mote_weight #(.Lanes(Lanes), .LogWidth(LogWidth), .Width(WeightWidth), .Table(Exp2Table), .TableLogic(TableLogic)) u_weight (
       .clk_i, .rst_ni,
       .valid_i(weighed_valid),
       .first_i(weighed_first),
