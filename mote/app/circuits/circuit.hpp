@@ -44,8 +44,8 @@ struct ModelDatapath {
   hardware::Datapath datapath;
 };
 
-/// The pipelines of a design: they depend on its instances, proposal, more_bits, interval and whether steps overlap.
-/// Words are chosen on recordings that the model draws.
+/// The pipelines of a design: they depend on its instances, proposal, more_bits, interval, where tables stand and
+/// whether steps overlap. Words are chosen on recordings that the model draws.
 ///
 /// error   Refusal (kWrongUse): the model is not as many copies as instances are asked for
 /// cost    a second or two
