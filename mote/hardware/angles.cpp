@@ -2,6 +2,7 @@
 
 #include "mote/base/numbers.hpp"
 #include "mote/hardware/function_parts.hpp"
+#include "mote/hardware/shift.hpp"
 
 namespace mote::hardware {
 namespace {
@@ -53,6 +54,30 @@ Compound angle_of(Sketch& sketch, const Signal& a, const Signal& b, const Format
   return sketch.done();
 }
 
+/// A number of half turns as the place in the first quarter of one, cut to what a result of y's fraction can tell.
+Signal place_in_the_quarter(Sketch& sketch, const Signal& angle, const Format& y) {
+  return sketch.convert(angle, {false, -2, y.fraction + 6}, {Rounding::kDown, Overflow::kSaturate});
+}
+
+/// The tangent of an angle of up to a quarter of half a turn.
+Signal below_the_eighth(Sketch& sketch, const Signal& angle, const Format& y) {
+  return sketch.table([](double h) { return std::tan(kPi * h); }, place_in_the_quarter(sketch, angle, y),
+                      {false, 0, y.fraction + 3});
+}
+
+/// The cotangent of d half turns, d up to a quarter, as the reciprocal of d times d cot(pi d), which is smooth.
+Signal towards_the_pole(Sketch& sketch, const Signal& left, const Format& y, Form form) {
+  const int fraction = y.integer + y.fraction + 6;  // of factors, so that the product is good to the last bit of y
+  const Signal slope = sketch.table([](double d) { return d == 0 ? 1 / kPi : d / std::tan(kPi * d); },
+                                    place_in_the_quarter(sketch, left, y), {false, 0, fraction});
+  const Floating distance = floating(sketch, left);
+  const Format leading{false, 1, std::min(distance.mantissa.format.fraction, fraction)};
+  const Signal mantissa = sketch.convert(distance.mantissa, leading, {Rounding::kDown, Overflow::kSaturate});
+  const Signal inverse = reciprocal_of_mantissa(sketch, mantissa, fraction - 1, form);
+  const Signal quotient = sketch.product(slope, inverse, {false, 0, fraction}).times_two_to(left.format.fraction);
+  return sketch.op(Scale{quotient.format, distance.place.format.width(), y}, y, quotient, distance.place);
+}
+
 }  // namespace
 
 Pair turned_by_quarters(Sketch& sketch, const Pair& pair, const Signal& quarter, const Format& y) {
@@ -78,6 +103,31 @@ Compound cosine_and_sine(const Format& x, const Format& y, const FunctionOptions
   const Pair whole = turned_by_quarters(sketch, in_the_quarter(sketch, place, fraction, options.form), quarter, y);
   sketch.output("cos_o", whole.cosine);
   sketch.output("sin_o", whole.sine);
+  return sketch.done();
+}
+
+Compound tangent(const Format& x, const Format& y, const FunctionOptions& options) {
+  Sketch sketch(function_name("tangent", {x, y}, options), options.multiplier, options.interval);
+  const Signal in = sketch.input("x_i", x);
+  // d tan = (1 + tan^2) dx: what the angle has to be good to, where the tangent is as large as y holds
+  const int fine = 2 * y.integer + y.fraction + 4;
+  if (options.form == Form::kCordic) {
+    const Format unit{true, 1, fine};
+    const Signal cosine = sketch.op(cosine_and_sine(x, unit, options), unit, in);
+    const Signal sine{{cosine.wire.node, 1}, unit};
+    sketch.output("y_o", sketch.op(divide(unit, unit, y, options), y, sine, cosine));
+    return sketch.done();
+  }
+  // in half turns, of which whole ones fall off: the angle closest to 0, and what is left to the pole
+  const Signal closest = sketch.scaled(in, 1 / kPi, fine + 1 + x.integer, {true, -1, fine}, Overflow::kWrap);
+  const Signal negative = sketch.sign(closest);
+  const Signal angle = sketch.magnitude(closest, negative);
+  const Signal left = sketch.difference(sketch.constant(angle.format, 0.5), angle, angle.format);
+  const Format magnitude{false, y.integer, y.fraction};
+  const Signal inner = sketch.convert(below_the_eighth(sketch, angle, y), magnitude);
+  const Signal is_inner = sketch.less(angle, sketch.constant(angle.format, 0.25));
+  const Signal size = sketch.select(is_inner, inner, towards_the_pole(sketch, left, magnitude, options.form));
+  sketch.output("y_o", sketch.negate_if(negative, size, y));
   return sketch.done();
 }
 

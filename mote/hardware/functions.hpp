@@ -17,7 +17,8 @@ enum class Form { kTable, kCordic };
 struct FunctionOptions {
   Form form = Form::kTable;
   Multiplier multiplier = Multiplier::kDsp;
-  int interval = 1;  ///< clocks from one word to the next
+  int interval = 1;           ///< clocks from one word to the next
+  bool logic_tables = false;  ///< tables of all values stay out of blocks of memory
 };
 
 /// y = 1 / x. 0 is taken for one step of x.
@@ -37,6 +38,12 @@ Compound exponential(const Format& x, const Format& y, const FunctionOptions& op
 
 /// (cos x, sin x), x in radians.
 Compound cosine_and_sine(const Format& x, const Format& y, const FunctionOptions& options = {});
+
+/// y = tan(x), x in radians. Within 2^-(2 integer + fraction + 2) of a pole, by bits of y, it saturates with either
+/// sign.
+///
+/// shape   y: signed, from 1 integer bit on
+Compound tangent(const Format& x, const Format& y, const FunctionOptions& options = {});
 
 /// y = atan2(b, a), the angle of the point (a, b), in radians; (0, 0) has angle 0, and (a, 0) with a < 0 has pi.
 ///

@@ -45,6 +45,7 @@ std::vector<Case> cases(const FunctionOptions& how, int bits) {
            }}},
           {"exp", exponential(wide, {false, 4, f}, how), {wide}, {false, 4, f}, {one(std::exp)}},
           {"cos, sin", cosine_and_sine(wide, unit, how), {wide}, unit, {one(std::cos), one(std::sin)}},
+          {"tan", tangent(wide, {true, 4, f - 1}, how), {wide}, {true, 4, f - 1}, {one(std::tan)}},
           {"atan2", arc_tangent_2(wide, f, how), {wide, wide}, {true, 2, f}, {[](double b, double a) {
              return std::atan2(b, a);
            }}},

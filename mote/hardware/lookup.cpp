@@ -17,6 +17,12 @@ Lookup::Lookup(const std::function<double(double)>& function, const Format& x, c
 
 Lookup::Lookup(const Format& x, const Format& y, std::vector<Word> table) : x_(x), y_(y), table_(std::move(table)) {}
 
+Lookup Lookup::in_logic() const {
+  Lookup same = *this;
+  same.logic_ = true;
+  return same;
+}
+
 Memory Lookup::memory() const {
   const std::uint64_t kept = ~std::uint64_t{0} >> (64 - y_.width());
   Memory memory{"File", y_.width(), {}};
@@ -25,11 +31,14 @@ Memory Lookup::memory() const {
 }
 
 Circuit Lookup::circuit() const {
+  std::vector<Parameter> parameters{parameter("AddressWidth", x_.width()), parameter("Width", y_.width()),
+                                    parameter("OutRegister", large())};
+  if (large() && logic_) parameters.push_back(parameter("Logic", true));
   return {"mote_rom",
-          {parameter("AddressWidth", x_.width()), parameter("Width", y_.width()), parameter("OutRegister", in_block())},
+          std::move(parameters),
           {port("address_i", x_)},
           {port("word_o", y_)},
-          in_block() ? 2 : 1,
+          large() ? 2 : 1,
           false,
           {memory()},
           {},

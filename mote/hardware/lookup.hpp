@@ -14,7 +14,7 @@ namespace mote::hardware {
 ///
 /// shape   x: from 1 to kMostBits bits
 /// error   half a step of y where y is in range: entries are rounded correctly
-/// cost    a clock, two where the table fills a block of memory
+/// cost    a clock, two where the table fills a block of memory, or would if it were not told to stay out of them
 class Lookup {
  public:
   static constexpr int kMostBits = 12;
@@ -37,15 +37,20 @@ class Lookup {
   const Format& x() const { return x_; }
   const Format& y() const { return y_; }
   std::size_t memory_bits() const { return table_.size() * static_cast<std::size_t>(y_.width()); }
-  bool in_block() const { return memory_bits() >= kBlockFrom; }
+  bool in_block() const { return large() && !logic_; }
+  /// The same table in look-up tables of a device, however large it is.
+  Lookup in_logic() const;
   /// The table's contents, for the parameter File.
   Memory memory() const;
 
   friend bool operator==(const Lookup&, const Lookup&) = default;
 
  private:
+  bool large() const { return memory_bits() >= kBlockFrom; }
+
   Format x_, y_;
   std::vector<Word> table_;
+  bool logic_ = false;
 };
 
 /// A table in a block of memory, read for two numbers at once: y0 = table[x0], y1 = table[x1]; mote_rom_pair.

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "mote/base/refusal.hpp"
 #include "mote/graph/evaluate.hpp"
 #include "mote/hardware/datapath/draws.hpp"
 #include "tests/hardware/models.hpp"
@@ -186,21 +185,6 @@ TEST(Datapath, DrawsTheFirstParentsFromThePrior) {
   EXPECT_NEAR(spread(1).second, std::sqrt(100000 + 1469.1), 4);  // cut off at 4 deviations: 0.05 % less
   EXPECT_NEAR(spread(2).first, 0, 0.6);
   EXPECT_NEAR(spread(2).second, std::sqrt(1469.1), 1);
-}
-
-TEST(Datapath, RefusesAnOperationWithoutACircuit) {
-  const ScratchFolder folder;
-  const std::string path = file_of(folder, "tangent.toml",
-                                   "[states]\nx = \"normal(0, 1)\"\n[next]\nx = \"tan(0.1*x) + normal(0, 1)\"\n"
-                                   "[observations]\ny = \"normal(x, 1)\"\n");
-  try {
-    subject("tangent", *catalogue_model(path));
-    FAIL();
-  } catch (const Refusal& refusal) {
-    EXPECT_EQ(refusal.code(), ExitCode::kWrongUse);
-    EXPECT_NE(std::string(refusal.what()).find("an operation that there is a circuit for, got tan"), std::string::npos)
-        << refusal.what();
-  }
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ inline std::string file_of(const ScratchFolder& folder, const std::string& name,
   return path;
 }
 
-/// + - * / sqrt exp log sin cos atan2 abs min max, a power, normal and uniform numbers, a wrapped angle, an input.
+/// + - * / sqrt exp log sin cos tan atan2 abs min max, a power, normal and uniform numbers, a wrapped angle, an input.
 inline constexpr const char* kEveryOperation = R"toml(
 [parameters]
 q = 0.3
@@ -50,7 +50,7 @@ v = "0.2*uniform(-1, 1)"
 a = "normal(0, 0.3)"
 [next]
 x = "0.9*x + v/(1 + abs(x)) + 0.1*sin(x) + q*normal(0, 1)"
-v = "0.8*v + max(min(0.2*x, 0.5), -0.5) + uniform(-0.1, 0.1)"
+v = "0.8*v + 0.1*tan(0.2*(a + v)) + max(min(0.2*x, 0.5), -0.5) + uniform(-0.1, 0.1)"
 a = "wrap(a + atan2(0.1*v, 1 + x^2) + normal(0, 0.05))"
 [observations]
 y = "normal(gain*(sqrt(1 + x^2) + exp(-0.5*abs(v))), 0.3)"

@@ -56,6 +56,7 @@ ModelDatapath model_datapath(const std::shared_ptr<const CatalogueModel>& model,
   options.overlapped = design.variant.overlapped;
   options.more_bits = design.more_bits;
   options.interval = design.interval;
+  options.logic_tables = design.variant.logic_tables;
   options.multiplier = design.multiplier;
   return {study.recorded(), hardware::datapath(study.recorded(), study.samples(), options)};
 }

@@ -44,12 +44,10 @@ struct ModelDatapath {
   hardware::Datapath datapath;
 };
 
-/// The pipelines of a design: they depend on its instances, proposal, more_bits, interval and whether steps overlap.
-/// Words are chosen on recordings that the model draws.
+/// The pipelines of a design: they depend on its instances, proposal, more_bits, interval, where tables stand and
+/// whether steps overlap. Words are chosen on recordings that the model draws.
 ///
-/// error   Refusal (kWrongUse): no circuit exists for an operation of the model, or it is not as many copies as
-/// instances
-///         are asked for
+/// error   Refusal (kWrongUse): the model is not as many copies as instances are asked for
 /// cost    a second or two
 ModelDatapath model_datapath(const std::shared_ptr<const CatalogueModel>& model, const std::string& name,
                              const CircuitDesign& design);

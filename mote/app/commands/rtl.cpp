@@ -75,8 +75,8 @@ std::vector<std::vector<double>> covariance_from(const Arguments& arguments) {
 
 /// What a part of a filter has no use for.
 void refuse_for_parts(const Arguments& arguments, const std::string& kind) {
-  std::vector<std::string> unread{"--arch",      "--draws",    "--burn-in", "--chain-mean", "--lanes",
-                                  "--registers", "--simulate", "--truth",   "--report",     "--ii"};
+  std::vector<std::string> unread{"--arch",     "--draws", "--burn-in", "--chain-mean", "--lanes", "--registers",
+                                  "--simulate", "--truth", "--report",  "--ii",         "--tables"};
   if (kind != "likelihood") unread.insert(unread.end(), {"MODEL", "--set", "--columns", "--more-bits"});
   if (kind != "gaussian") unread.emplace_back("--covariance");
   if (kind == "gaussian") unread.emplace_back("--particles");

@@ -85,6 +85,7 @@ void refuse_uneven(const Arguments& arguments, const CircuitDesign& design) {
 hardware::Variant variant_from(const Arguments& arguments) {
   hardware::Variant variant;
   variant.overlapped = arguments.given("--overlap");
+  variant.logic_tables = arguments.choice("--tables", {"blocks", "logic"}) == 1;
   if (arguments.given("--resampler"))
     variant.resampler = static_cast<hardware::Resampler>(arguments.choice("--resampler", kResamplers));
   if (arguments.given("--loops")) {
@@ -115,6 +116,8 @@ std::vector<OptionSpec> circuit_options() {
       {"--ii", "K", "1",
        "cycles from a particle to the next, from 1 to 16: costly operators of the model take turns (imh, imh-parallel, "
        "auxiliary, sisr, sisr-lanes)",
+       "Circuit"},
+      {"--tables", "KIND", "blocks", "where large tables stand: in blocks of memory, or in logic (look-up tables)",
        "Circuit"},
       {"--more-bits", "B", "0", "bits after the point, of every word, more than chosen: from -8 to 8", "Circuit"},
       {"--exchange", "M", "", "groups: children that each group has from the one before it, to N/L [1]", "Circuit"},

@@ -35,13 +35,13 @@ class Builder {
         recorded_(recorded),
         precision_(precision),
         options_(options),
-        functions_({options.form, options.multiplier, options.interval}) {
+        functions_({options.form, options.multiplier, options.interval, options.logic_tables}) {
     if (options.fuse) fused_ = fused(plan, precision, functions_.options());
   }
 
   Compound propose() {
     Sketch sketch(options_.prefix + "_propose", options_.multiplier, options_.interval);
-    Mapping mapping(plan_, recorded_, precision_, fused_, sketch, functions_, options_.overlapped);
+    Mapping mapping(plan_, precision_, fused_, sketch, functions_, options_.overlapped);
     const Signal first = of_the_step(sketch, "first_i", {false, 1, 0});
     const std::vector<Signal> states = state_ports(sketch, "state");
     give_draws(sketch, mapping);
@@ -61,7 +61,7 @@ class Builder {
 
   Compound weigh() {
     Sketch sketch(options_.prefix + "_weigh", options_.multiplier, options_.interval);
-    Mapping mapping(plan_, recorded_, precision_, fused_, sketch, functions_, options_.overlapped);
+    Mapping mapping(plan_, precision_, fused_, sketch, functions_, options_.overlapped);
     give_states(mapping, Role::kState, state_ports(sketch, "state"));
     if (recorded_.log_ratio) give_states(mapping, Role::kBefore, state_ports(sketch, "before"));
     give_fields(sketch, mapping);

@@ -23,6 +23,7 @@ struct DatapathOptions {
   bool fuse = true;                   ///< functions of one number become one table where that is smaller
   bool overlapped = false;            ///< observations go with each particle instead of standing
   int interval = 1;                   ///< clocks from a particle to the next, in which costly operators take turns
+  bool logic_tables = false;          ///< tables of all values in look-up tables instead of blocks of memory
   std::string prefix = "mote_model";  ///< of the modules' names: <prefix>_propose and <prefix>_weigh
 };
 
@@ -71,7 +72,6 @@ Connections weigh_connections(const Datapath& datapath);
 
 /// A model's datapath. Words are as short as the samples allow (precision.hpp).
 ///
-/// error   Refusal (kWrongUse) naming the vertex that no circuit exists for
 /// cost    a second: tables are fitted
 Datapath datapath(const graph::Recorded& recorded, const Samples& samples, const DatapathOptions& options = {});
 

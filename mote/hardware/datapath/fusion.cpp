@@ -103,7 +103,8 @@ class Search {
     const auto function = function_between(plan_, source, root);
     const Format& x = precision_.formats[source];
     if (x.width() > kWidest) return {};
-    return cheapest_table(function, x, precision_.formats[root], folds(function, x), options_.multiplier);
+    const auto unit = cheapest_table(function, x, precision_.formats[root], folds(function, x), options_.multiplier);
+    return unit && options_.logic_tables ? unit->in_logic() : unit;
   }
 
   /// How a function's table may be folded: by its symmetry, if it has one.
@@ -178,6 +179,8 @@ int operator_cost(const Plan& plan, const Precision& precision, Id id) {
     case Op::kSin:
     case Op::kCos:
       return cost(3 * operand(0) + 4 * width, 3, 16);
+    case Op::kTan:
+      return cost(8 * operand(0) + 2 * width, 4, 24);
     case Op::kAtan:
       return cost(2 * operand(0), 2, 10);
     case Op::kAtan2:

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mote/base/refusal.hpp"
-
 namespace mote::hardware {
 namespace {
 
@@ -317,21 +315,13 @@ Signal Mapping::function(Id id, const Format& y) {
     case Op::kSin:
     case Op::kCos:
       return cosine_or_sine(v, y);
-    case Op::kAtan:
-    case Op::kAtan2:
+    case Op::kTan: {
+      const Format wide{true, std::max(1, y.integer), std::max(2, y.fraction)};
+      return converted(unary("tan ", operand(v.args[0]), wide, tangent), y);
+    }
+    default:  // an arctangent: inputs were given
       return angle(v, y);
-    default:
-      refuse(id);
   }
-}
-
-void Mapping::refuse(Id id) const {
-  const Vertex& v = plan_.graph[id];
-  const bool input = v.op == Op::kInput;
-  throw Refusal(ExitCode::kWrongUse,
-                {"circuit", "vertex v" + std::to_string(id), "an operation that there is a circuit for",
-                 input ? recorded_.name_of(v) : std::string(graph::name_of(v.op)),
-                 "Write the model with + - * / sqrt exp log sin cos atan atan2 abs floor and select."});
 }
 
 }  // namespace mote::hardware

@@ -36,10 +36,9 @@ class Functions {
 class Mapping {
  public:
   /// overlapped: fields go with each particle instead of standing.
-  Mapping(const Plan& plan, const graph::Recorded& recorded, const Precision& precision,
-          const std::map<graph::Id, Fused>& fused, Sketch& sketch, Functions& functions, bool overlapped)
+  Mapping(const Plan& plan, const Precision& precision, const std::map<graph::Id, Fused>& fused, Sketch& sketch,
+          Functions& functions, bool overlapped)
       : plan_(plan),
-        recorded_(recorded),
         precision_(precision),
         fused_(fused),
         sketch_(sketch),
@@ -51,8 +50,6 @@ class Mapping {
   /// What an input or a field is; it is converted to the vertex's format.
   void give(graph::Id id, const Signal& signal);
   /// Adds what outputs need.
-  ///
-  /// error   Refusal (kWrongUse) naming a vertex that no circuit exists for
   void compute(const std::vector<graph::Id>& outputs);
   /// A vertex in a format.
   Signal in(graph::Id id, const Format& format);
@@ -83,13 +80,11 @@ class Mapping {
   Signal operand(graph::Id id);
   Signal unsigned_of(const Signal& a);
   Signal converted(const Signal& a, const Format& y) { return a.format == y ? a : sketch_.convert(a, y); }
-  [[noreturn]] void refuse(graph::Id id) const;
   Format roomy(graph::Id id, int integer, int fraction, int more) const;
   static std::vector<unsigned> readers_of(const Plan& plan);
   static std::vector<int> room_of(const Plan& plan, const std::map<graph::Id, Fused>& fused);
 
   const Plan& plan_;
-  const graph::Recorded& recorded_;
   const Precision& precision_;
   const std::map<graph::Id, Fused>& fused_;
   Sketch& sketch_;

@@ -45,7 +45,7 @@ bool is_draw(const Vertex& v) {
 }
 bool is_function(Op op) {
   return op == Op::kDivide || op == Op::kSqrt || op == Op::kExp || op == Op::kLog || op == Op::kSin || op == Op::kCos ||
-         op == Op::kAtan || op == Op::kAtan2;
+         op == Op::kTan || op == Op::kAtan || op == Op::kAtan2;
 }
 
 class Analysis {

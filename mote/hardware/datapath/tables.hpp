@@ -31,6 +31,8 @@ class FunctionTable {
   const Lookup* lookup() const { return std::get_if<Lookup>(&unit_); }
   /// The polynomials, if it is those.
   const Piecewise* piecewise() const { return std::get_if<Piecewise>(&unit_); }
+  /// The same with a table of all values in look-up tables of the device; polynomials' are small.
+  FunctionTable in_logic() const { return lookup() != nullptr ? FunctionTable(lookup()->in_logic()) : *this; }
   /// About what it takes.
   int cost() const;
 

@@ -39,6 +39,8 @@ struct ImhLanes {
   }
   /// That each need a first proposal.
   std::uint32_t chains() const { return folded ? 1 : count; }
+  /// Cycles of the choice whose slot each memory of states reads, where several lanes take turns.
+  std::uint64_t turn_latency() const { return count > 1 && parents != Parents::kShared ? 1 : 0; }
   /// Cycles from the log weights of a row to what is decided on it.
   std::uint64_t chain_latency() const { return folded ? count + 2 : 1; }
 };
@@ -48,7 +50,7 @@ struct ImhLanes {
 /// Overlapped, the last of them are those of the next step: its row j has its parents among the first min(n, n - H + j)
 /// of n slots, which have emerged by then.
 ///
-///   step = r + W - H,   W = K_p + K_w - 2,   H = min(W, floor(n / 2)),   n = N / lanes
+///   step = r + W - H,   W = K_p + K_w - 1,   H = min(W, floor(n / 2)),   n = N / lanes
 ///
 /// Overlapped steps have T = 1.
 ///
@@ -57,7 +59,7 @@ struct ImhLatency {
   std::uint64_t propose, weigh;  ///< K_p and K_w
   std::uint64_t interval;        ///< T
   explicit ImhLatency(const Formats& f, const ImhLanes& lanes = {})
-      : propose(3 + f.product_latency + f.propose_latency),
+      : propose(3 + f.product_latency + lanes.turn_latency() + f.propose_latency),
         weigh(f.weigh_latency + lanes.chain_latency()),
         interval(f.interval) {}
   /// From the beginning of a step to its last decision.
@@ -66,12 +68,12 @@ struct ImhLatency {
   }
   /// H: rows of a step that choose among fewer slots than all.
   std::uint64_t restricted(std::uint32_t slots) const {
-    return std::min(propose + weigh - 2, std::uint64_t{slots} / 2);
+    return std::min(propose + weigh - 1, std::uint64_t{slots} / 2);
   }
   /// From the beginning of a step to that of the next.
   std::uint64_t step(const ImhRegisters& r, const ImhLanes& lanes = {}) const {
     if (!lanes.overlapped) return decided(r, lanes);
-    return lanes.rows(r) + propose + weigh - 2 - restricted(r.particles / lanes.count);
+    return lanes.rows(r) + propose + weigh - 1 - restricted(r.particles / lanes.count);
   }
 };
 

@@ -30,8 +30,9 @@ struct Register {
 /// How a filter is built where its kind has a choice.
 struct Variant {
   Resampler resampler = Resampler::kSystematic;
-  PlainLoops loops = {};    ///< of the filter in separate loops
-  bool overlapped = false;  ///< a step of chains begins while the one before is still decided on
+  PlainLoops loops = {};      ///< of the filter in separate loops
+  bool overlapped = false;    ///< a step of chains begins while the one before is still decided on
+  bool logic_tables = false;  ///< tables in look-up tables of the device instead of blocks of memory
 };
 
 /// How large a circuit is made: what its registers may be told at most.

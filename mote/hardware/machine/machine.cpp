@@ -126,8 +126,10 @@ Machine::Machine(ModelCircuit model, const Architecture& architecture, const Run
 }
 
 unsigned Machine::stages() const {
-  return architecture_->stages + architecture_->stages_a_lane * capacity_.lanes + formats().propose_latency +
-         formats().weigh_latency + (architecture_->chain ? formats().product_latency - 1 : 0);
+  const unsigned own = architecture_->stages + architecture_->stages_a_lane * capacity_.lanes;
+  const auto turn = static_cast<unsigned>(architecture_->fed(capacity_).turn_latency());
+  return own + formats().propose_latency + formats().weigh_latency +
+         (architecture_->chain ? formats().product_latency - 1 + turn : 0);
 }
 
 int Machine::particle_bits() const { return as_int(capacity_.lanes * formats().dims * formats().value_bits); }
@@ -223,6 +225,7 @@ std::vector<Parameter> Machine::parameters() const {
                              parameter("Product", as_int(f.product_latency)),
                              parameter("Seed", 64, seed_)};
   if (f.interval > 1) all.push_back(parameter("Interval", as_int(f.interval)));
+  if (capacity_.variant.logic_tables) all.push_back(parameter("TableLogic", true));
   if (f.carried > 0) all.push_back(parameter("CarryWidth", as_int(f.carried * f.value_bits)));
   for (const Parameter& one : architecture_->parameters(capacity_)) all.push_back(one);
   return all;

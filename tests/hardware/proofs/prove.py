@@ -2,7 +2,7 @@
 """Proves what a module of the circuits promises at its handshakes: prove.py RTL PROOF
 
 PROOF.svh is put before the end of the module that its first line names, and states what is assumed and asserted. Its head:
-    // module NAME  Parameter=value ...
+    // module NAME  Parameter=value ...   of which there may be several, each proved
     // within STEPS   of a run from reset, and of the induction, which covers runs of any length
     // free   CELLS   whose outputs may be anything, of Yosys's kinds; may be left out
     // twin   TEXT -> TEXT   a mistake in the module that a run from reset must show
@@ -51,19 +51,20 @@ def main():
         wrong("expected RTL and PROOF. Pass the folder of the modules and a .svh file.")
     rtl, proof = map(pathlib.Path, sys.argv[1:])
     text = proof.read_text()
-    module, parameters = re.search(r"// module (\w+)(.*)", text).groups()
     free = "".join(f"cutpoint t:{kind}; " for line in re.findall(r"// free +(.*)", text) for kind in line.split())
-    head = module, re.findall(r"(\w+)=(\w+)", parameters), re.search(r"// within (\d+)", text)[1], free
+    within = re.search(r"// within (\d+)", text)[1]
     twins = re.findall(r"// twin +(.+?) -> (.*)", text)
     if not twins:
         wrong(f"{proof.name}: twin: expected one or more, got none. Name a mistake that the proof must find.")
-    printed = verdict(rtl, proof, head)
-    if "Induction step proven: SUCCESS!" not in printed:
-        wrong(f"{proof.name}: expected a proof, got none. Look at what is asserted.\n{printed[-6000:]}")
-    for twin in twins:
-        if "model found for base case: FAIL!" not in verdict(rtl, proof, head, twin):
-            wrong(f"{proof.name}: twin: expected a run that shows it, got none: {' -> '.join(twin)}. Assert more.")
-    print(f"{module}: proved; {len(twins)} of {len(twins)} twins caught")
+    for module, parameters in re.findall(r"// module (\w+)(.*)", text):
+        head = module, re.findall(r"(\w+)=(\w+)", parameters), within, free
+        printed = verdict(rtl, proof, head)
+        if "Induction step proven: SUCCESS!" not in printed:
+            wrong(f"{proof.name}: expected a proof, got none. Look at what is asserted.\n{printed[-6000:]}")
+        for twin in twins:
+            if "model found for base case: FAIL!" not in verdict(rtl, proof, head, twin):
+                wrong(f"{proof.name}: twin: expected a run that shows it, got none: {' -> '.join(twin)}. Assert more.")
+        print(f"{module}{parameters}: proved; {len(twins)} of {len(twins)} twins caught")
 
 
 main()

@@ -9,7 +9,7 @@
 enum {
   PairWords = (Dims * ValueWidth + CarryWidth + 31) / 32,
   Chains = Folded ? 1 : Lanes,
-  Window = 3 + Product + ProposeLatency + WeighLatency + (Folded ? Lanes + 2 : 1) - 2
+  Window = 3 + Product + (Lanes > 1) + ProposeLatency + WeighLatency + (Folded ? Lanes + 2 : 1) - 1
 };
 
 struct filter {

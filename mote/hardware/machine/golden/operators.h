@@ -288,7 +288,7 @@ static inline void mote_piecewise(const mote_piecewise_parameters *p, int64_t x,
 // ---- a table of all values; who reads it knows whether they are signed
 
 typedef struct {
-  int AddressWidth, Width, OutRegister;
+  int AddressWidth, Width, OutRegister, Logic;
   const mote_entry *File;
 } mote_rom_parameters;
 

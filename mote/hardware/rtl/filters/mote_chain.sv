@@ -1,11 +1,11 @@
 // A chain of independent Metropolis-Hastings: decides on a proposal a cycle.
 //
 //   accepts_o  =  first_i  or  lw <= lw' - log2 u      lw of the chain's state, lw' of the proposal, u uniform
-//   state_o    =  state_i where it accepts, else the chain's state
+//   current_o(n + 1)  =  state_i where it accepts, else the chain's state
 //
 // formats  log weights: signed, octaves, 10 fraction bits
-// timing   word_i, then log_weight_i and first_i 5 cycles later, decides_i and state_i a cycle after that; accepts_o and
-//          state_o in the same cycle, current_o in the next. Initiation interval 1. The first proposal's bound is the
+// timing   word_i, then log_weight_i and first_i 5 cycles later, decides_i and state_i a cycle after that; accepts_o in
+//          the same cycle, current_o in the next. Initiation interval 1. The first proposal's bound is the
 //          greatest there is, so that the comparison alone decides
 // golden   mote/hardware/filters/imh.hpp
 // source   IMH-HW (16) - (17)
@@ -24,7 +24,6 @@ module mote_chain #(
     input  logic                       decides_i,
     input  logic [StateWidth-1:0]      state_i,
     output logic                       accepts_o,
-    output logic [StateWidth-1:0]      state_o,
     output logic [StateWidth-1:0]      current_o
 );
   logic [31:0] word;
@@ -41,7 +40,6 @@ module mote_chain #(
   assign bound = (LogWidth + 1)'(log_weight_i) + (LogWidth + 1)'({1'b0, drop});
   assign {accepts_o, unused_difference, unused_carry} =
       {1'b0, bound_q, 1'b1} + {1'b0, ~not_current_q[LogWidth-1], not_current_q, 1'b1};
-  assign state_o = accepts_o ? state_i : current_o;
   always_ff @(posedge clk_i) begin
     bound_q   <= first_i ? '1 : {~bound[LogWidth], bound[LogWidth-1:0]};
     not_log_q <= ~log_weight_i;

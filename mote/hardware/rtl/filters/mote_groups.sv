@@ -34,6 +34,7 @@ module mote_groups #(
     parameter int unsigned Stream         = 0,
     parameter int unsigned Product        = 1,
     parameter Exp2Table                   = "exp2.hex",
+    parameter bit TableLogic              = 1'b0,
     localparam int unsigned ScaleWidth = LogWidth - 12,
     localparam int unsigned SumWidth   = WeightWidth + At,
     localparam int unsigned MeanWidth  = ValueWidth + Extra + 1,
@@ -195,7 +196,7 @@ module mote_groups #(
     logic [1:0] rise;
     logic [17:0] weight_short;
     logic [GroupSumWidth-1:0] total_q;
-    mote_weight #(.LogWidth(LogWidth), .Width(WeightWidth), .Table(Exp2Table)) u_weight (
+    mote_weight #(.LogWidth(LogWidth), .Width(WeightWidth), .Table(Exp2Table), .TableLogic(TableLogic)) u_weight (
         .clk_i, .rst_ni,
         .valid_i(weighed_valid),
         .first_i(weighed_first_q),

@@ -11,7 +11,7 @@
 // chains', each by itself (shared: a copy of the set for every lane); see mote_parents.
 // Overlapped: a step begins to propose while the one before is still decided on. Its first proposals have their parents among
 // the states that have emerged by then, n = N/Lanes slots in all:
-//   slots of row j:  min(n, n - H + j),   H = min(W, floor(n / 2)),   W = K_p + K_w - 2
+//   slots of row j:  min(n, n - H + j),   H = min(W, floor(n / 2)),   W = K_p + K_w - 1
 // The arithmetic of a model is outside, pipelines without stalls, one a lane: propose (state_i, words -> state,
 // ProposeLatency cycles) and weigh (state -> log weight, WeighLatency cycles). t_o and obs_o stand from 3 + Product cycles before
 // the first state of a step reaches propose until its last leaves weigh. Overlapped, they and weigh_obs_o change with a step's
@@ -25,7 +25,8 @@
 // range    Lanes a power of two, n_i and draws_i multiples of it; Lanes <= n_i <= Most; n_i <= draws_i;
 //          draws_i + Lanes burn_in_i <= 2^At (Folded: draws_i + burn_in_i); Most <= 2^At. Registers are read at start_i
 // timing   a row every Interval = T cycles; a step of r rows takes (r - 1) T + K_p + K_w + 1 cycles, exactly (IMH-HW 5.3 with
-//          T_p = T_w = T, T_D = 1; of pairs with T_D = 1/Lanes): K_p = 3 + Product + ProposeLatency, K_w = WeighLatency + 1 (Folded: WeighLatency + Lanes + 2); the estimate
+//          T_p = T_w = T, T_D = 1; of pairs with T_D = 1/Lanes): K_p = 3 + Product + ProposeLatency (several lanes
+//          whose Parents are not 2: one more), K_w = WeighLatency + 1 (Folded: WeighLatency + Lanes + 2); the estimate
 //          follows 6 + Product + Dims (ValueWidth + Extra + 1) cycles (2 log2 Lanes more with several lanes) behind the last decision, of
 //          a folded chain sooner or later, see imh.cpp. A step waits for an observation, and for the estimate of the
 //          step before the last to be taken. Overlapped: r + W - H cycles; r where n >= 2 W.
@@ -54,6 +55,7 @@ module mote_imh #(
     parameter int unsigned Stream         = 0,
     parameter int unsigned Product        = 1,
     parameter Exp2Table                   = "exp2.hex",
+    parameter bit TableLogic              = 1'b0,
     parameter Log2Table                   = "log2.hex",
     localparam int unsigned ScaleWidth = LogWidth - 12,
     localparam int unsigned SumWidth   = WeightWidth + At,
@@ -102,8 +104,9 @@ module mote_imh #(
 );
   localparam int unsigned ModelLatency = ProposeLatency + WeighLatency;
   localparam int unsigned ChainLatency = Folded == 1 ? Lanes + 2 : 1;  // from the log weights of a row to what is decided
-  localparam int unsigned ParentLatency = 3 + Product;  // of mote_parents
-  localparam int unsigned Window = ParentLatency + ModelLatency + ChainLatency - 2;
+  localparam int unsigned SlotLatency = 1 + Product + (Lanes > 1 && Parents != 2 ? 1 : 0);  // until a parent's slot is read
+  localparam int unsigned ParentLatency = SlotLatency + 2;  // of mote_parents
+  localparam int unsigned Window = ParentLatency + ModelLatency + ChainLatency - 1;  // a state emerges a cycle after it is decided on
   typedef logic [At:0] count_t;
 
   // ---- what a run is, of a lane
@@ -144,7 +147,8 @@ module mote_imh #(
     else if (issues) issue_q <= issue_q + (At + 1)'(1);
   end
   mote_turn #(.Interval(Interval)) u_turn (.clk_i, .first_i(begins), .asks_i(issuing_q), .turn_o(issues));
-  logic bank_q, read_bank;
+  logic bank_q, read_bank;  // bank_q: what the last whole step left
+  logic [Lanes*StateWidth-1:0] current;
   if (Overlapped == 1) begin : gen_overlapped
     localparam int unsigned GapWidth = $clog2(Window + 1);
     localparam int unsigned HeadWidth = GapWidth > At ? GapWidth + 1 : At + 1;  // the window may be longer than any step
@@ -155,7 +159,7 @@ module mote_imh #(
     assign half = HeadWidth'(per_lane_n[At:1]);
     assign head = half > HeadWidth'(Window) ? HeadWidth'(Window) : half;
     assign free = issue_last && gap_q == '0 || left_q == GapWidth'(1);
-    mote_valid #(.Depth(1 + Product)) u_reads (.clk_i, .rst_ni, .valid_i(begins), .valid_o(reads_next));
+    mote_valid #(.Depth(SlotLatency)) u_reads (.clk_i, .rst_ni, .valid_i(begins), .valid_o(reads_next));
     mote_valid #(.Depth(2)) u_proposes (.clk_i, .rst_ni, .valid_i(reads_next), .valid_o(proposes_next));
     mote_valid #(.Depth(ProposeLatency)) u_weighs (.clk_i, .rst_ni, .valid_i(proposes_next), .valid_o(weighs_next));
     always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -208,14 +212,14 @@ module mote_imh #(
       .write_i(kept_valid_o),
       .write_bank_i(~bank_q),
       .write_slot_i(kept_slot_o),
-      .write_state_i(kept_state_o));
+      .write_state_i(current));
 
   // ---- the model's arithmetic, and the chains, whose words begin 5 cycles before the log weight is there
   localparam int unsigned Scaled = 3 + LaneBits;  // from log weights to weights, the latency of mote_weight
   localparam int unsigned Tap = ChainLatency < Scaled ? ChainLatency : Scaled;
   logic weighed_valid, weighed_first, decides, starts, keeps;
   logic [Lanes-1:0] accepts;
-  logic [Lanes*StateWidth-1:0] proposed_state, tapped_state, decided_state, current;
+  logic [Lanes*StateWidth-1:0] proposed_state, tapped_state, decided_state;
   assign propose_valid_o = parent_valid;
   assign weigh_state_o = propose_state_i;
   mote_valid #(.Depth(ProposeLatency)) u_weigh_valid (
@@ -238,6 +242,7 @@ module mote_imh #(
     end
   end
   if (Folded == 1) begin : gen_folded
+    logic [Lanes*StateWidth-1:0] folded;
     mote_fold #(
         .Lanes(Lanes), .LogWidth(LogWidth), .StateWidth(StateWidth), .Seed(Seed), .Stream(Stream + 1),
         .StreamStep(Streams), .Log2Table(Log2Table)
@@ -249,8 +254,8 @@ module mote_imh #(
         .log_weight_i(weigh_log_i),
         .state_i(decided_state),
         .accepts_o(accepts),
-        .state_o(kept_state_o));
-    mote_delay #(.Width(Lanes * StateWidth)) u_current (.clk_i, .d_i(kept_state_o), .d_o(current));
+        .state_o(folded));
+    mote_delay #(.Width(Lanes * StateWidth)) u_current (.clk_i, .d_i(folded), .d_o(current));
   end else begin : gen_chains
     for (genvar l = 0; l < Lanes; l++) begin : gen_lane
       mote_chain #(
@@ -264,7 +269,6 @@ module mote_imh #(
           .decides_i(decides),
           .state_i(decided_state[l*StateWidth+:StateWidth]),
           .accepts_o(accepts[l]),
-          .state_o(kept_state_o[l*StateWidth+:StateWidth]),
           .current_o(current[l*StateWidth+:StateWidth]));
     end
   end
@@ -279,21 +283,23 @@ module mote_imh #(
   end
   assign accepted_d = !started_q ? accepted_q + moves : Folded == 1 ? moves : '0;
   logic [SlotWidth-1:0] slot_q;
-  logic kept_q, kept_first_q;
+  logic kept_q, kept_first_q, last_q;
   assign starts = decided_q == '0;
   assign keeps = decided_q >= drop_q;
   assign decided_last = decides && decided_q == last_row_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       kept_q    <= 1'b0;
+      last_q    <= 1'b0;
       bank_q    <= 1'b0;
       decided_q <= '0;
       slot_q    <= '0;
     end else begin
-      kept_q <= kept_valid_o;
-      if (decided_last) bank_q <= ~bank_q;
+      kept_q <= decides && keeps;
+      last_q <= decided_last;
+      if (last_q) bank_q <= ~bank_q;
       if (decides) decided_q <= decided_last ? '0 : decided_q + (At + 1)'(1);
-      if (kept_valid_o) slot_q <= decided_last ? '0 : slot_q + SlotWidth'(1);
+      if (kept_q) slot_q <= last_q ? '0 : slot_q + SlotWidth'(1);
     end
   end
   always_ff @(posedge clk_i) begin
@@ -312,8 +318,10 @@ module mote_imh #(
   end else begin : gen_accepted
     assign accepted = accepted_q;
   end
-  assign kept_valid_o = decides && keeps;
+  // The set is written a cycle after the decision: comparison, choice and memory are no path.
+  assign kept_valid_o = kept_q;
   assign kept_slot_o = slot_q;
+  assign kept_state_o = current;
 
   // ---- inference: weights are there Scaled cycles after their logarithms, kept states ChainLatency + 1; all is in at Done,
   // and where the next step's follow at once both come by then
@@ -329,7 +337,7 @@ module mote_imh #(
   logic [Lanes*StateWidth-1:0] inferred_state, kept;
   logic signed [ScaleWidth-1:0] scaled_scale, scale;
   logic kept_valid, kept_first;
-  mote_weight #(.Lanes(Lanes), .LogWidth(LogWidth), .Width(WeightWidth), .Table(Exp2Table)) u_weight (
+  mote_weight #(.Lanes(Lanes), .LogWidth(LogWidth), .Width(WeightWidth), .Table(Exp2Table), .TableLogic(TableLogic)) u_weight (
       .clk_i, .rst_ni,
       .valid_i(weighed_valid),
       .first_i(weighed_first),

@@ -17,28 +17,33 @@ module mote_log_uniform #(
   logic [6:0] table_rom[128];
   initial $readmemh(Table, table_rom);
 
-  // Leading zeros: those of each byte, of the first byte that has a one.
+  // Leading zeros: those of each byte, then of the first byte that has a one.
   function automatic logic [2:0] zeros_of(input logic [7:0] byte_in);
     zeros_of = '0;
     for (int i = 0; i < 8; i++) if (byte_in[i]) zeros_of = 3'(7 - i);
   endfunction
-  logic [5:0] zeros;
+  logic [3:0] some_q;  // bytes with a one, the leading byte first
+  logic [4*3-1:0] zeros_q;
+  logic [1:0] first;
   always_comb begin
-    zeros = 6'd32;
-    for (int k = 3; k >= 0; k--) if (word_i[31-8*k-:8] != '0) zeros = {3'(k), zeros_of(word_i[31-8*k-:8])};
+    first = 2'd3;
+    for (int k = 2; k >= 0; k--) if (some_q[k]) first = 2'(k);
   end
 
-  logic [5:0]  zeros_q, zeros2_q, zeros3_q, zeros4_q;
+  logic [5:0]  zeros2_q, zeros3_q, zeros4_q;
   logic [31:0] word_q, coarse_q;
   logic [9:0]  mantissa_q;
   logic [10:0] log_q;
   logic [31:0] fine;
   assign fine = coarse_q << zeros2_q[2:0];
   always_ff @(posedge clk_i) begin
-    zeros_q    <= zeros;
+    for (int k = 0; k < 4; k++) begin
+      some_q[k]       <= word_i[31-8*k-:8] != '0;
+      zeros_q[3*k+:3] <= zeros_of(word_i[31-8*k-:8]);
+    end
     word_q     <= word_i;
-    zeros2_q   <= zeros_q;
-    coarse_q   <= word_q << {zeros_q[5:3], 3'b0};
+    zeros2_q   <= some_q == '0 ? 6'd32 : {1'b0, first, zeros_q[3*32'(first)+:3]};
+    coarse_q   <= word_q << {first, 3'b0};
     zeros3_q   <= zeros2_q;
     mantissa_q <= fine[30:21];
     zeros4_q   <= zeros3_q;

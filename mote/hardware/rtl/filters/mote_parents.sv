@@ -6,8 +6,9 @@
 //     2 shared   r of the lane's own word: parents are independent, every lane holds a copy of all memories
 //
 // formats  words as they come: u from the 24 upper bits, r from the bits below. Lanes: a power of two, at most 256
-// timing   state_o 3 + Product cycles after advance_i, initiation interval 1; n_i goes a cycle behind advance_i. Two sets:
-//          bank_i, of the cycle in which a slot is read (1 + Product behind advance_i), and the one that is written.
+// timing   state_o 3 + Product cycles after advance_i, a cycle more where several lanes take turns (Choice 0 and 1); initiation
+//          interval 1; n_i goes a cycle behind advance_i. Two sets: bank_i, of the cycle in which a slot is read (2 before
+//          state_o), and the one that is written.
 //          Product: mote_times's
 // golden   mote/hardware/filters/imh.hpp
 module mote_parents #(
@@ -75,15 +76,18 @@ module mote_parents #(
     logic [Lanes*Width-1:0] read;
     for (genvar l = 0; l < Lanes; l++) begin : gen_lane
       lane_t reader, from4;
+      logic [SlotWidth-1:0] read_slot;
       assign reader = Lanes == 1 ? '0 : LaneWidth'(l) - from[0+:LaneWidth];
       mote_ram #(.Width(Width), .Words(2 << SlotWidth)) u_set (
           .clk_i,
           .write_i,
           .write_at_i({write_bank_i, write_slot_i}),
           .write_word_i(write_state_i[l*Width+:Width]),
-          .read_at_i({bank_i, slot[reader*SlotWidth+:SlotWidth]}),
+          .read_at_i({bank_i, read_slot}),
           .read_word_o(read[l*Width+:Width]));
-      mote_delay #(.Width(LaneWidth), .Depth(2)) u_from (.clk_i, .d_i(from[l*LaneWidth+:LaneWidth]), .d_o(from4));
+      mote_delay #(.Width(SlotWidth), .Depth(Lanes > 1 ? 1 : 0)) u_read_slot (
+          .clk_i, .d_i(slot[reader*SlotWidth+:SlotWidth]), .d_o(read_slot));
+      mote_delay #(.Width(LaneWidth), .Depth(Lanes > 1 ? 3 : 2)) u_from (.clk_i, .d_i(from[l*LaneWidth+:LaneWidth]), .d_o(from4));
       assign state_o[l*Width+:Width] = read[from4*Width+:Width];
     end
   end

@@ -33,6 +33,7 @@ module mote_sisr #(
     parameter int unsigned Stream         = 0,
     parameter int unsigned Product        = 1,
     parameter Exp2Table                   = "exp2.hex",
+    parameter bit TableLogic              = 1'b0,
     localparam int unsigned ScaleWidth = LogWidth - 12,
     localparam int unsigned SumWidth   = WeightWidth + At,
     localparam int unsigned MeanWidth  = ValueWidth + Extra + 1,
@@ -157,7 +158,7 @@ module mote_sisr #(
   logic [Lanes*WeightWidth-1:0] weight;
   logic [Lanes*18-1:0] weight_short;
   logic signed [ScaleWidth-1:0] scale;
-  mote_weight #(.Lanes(Lanes), .LogWidth(LogWidth), .Width(WeightWidth), .Table(Exp2Table)) u_weight (
+  mote_weight #(.Lanes(Lanes), .LogWidth(LogWidth), .Width(WeightWidth), .Table(Exp2Table), .TableLogic(TableLogic)) u_weight (
       .clk_i, .rst_ni,
       .valid_i(weighed_valid),
       .first_i(weighed_first_q),

@@ -30,6 +30,7 @@ module mote_sisr_plain #(
     parameter int unsigned Stream         = 0,
     parameter int unsigned Product        = 1,
     parameter Exp2Table                   = "exp2.hex",
+    parameter bit TableLogic              = 1'b0,
     localparam int unsigned ScaleWidth = LogWidth - 12,
     localparam int unsigned SumWidth   = WeightWidth + At,
     localparam int unsigned MeanWidth  = ValueWidth + Extra + 1,
@@ -191,7 +192,7 @@ module mote_sisr_plain #(
       if (weight_valid) summed_q <= weight_last ? '0 : summed_q + (At + 1)'(1);
     end
   end
-  mote_weight #(.LogWidth(LogWidth), .Width(WeightWidth), .Table(Exp2Table)) u_weight (
+  mote_weight #(.LogWidth(LogWidth), .Width(WeightWidth), .Table(Exp2Table), .TableLogic(TableLogic)) u_weight (
       .clk_i, .rst_ni,
       .valid_i(log_valid),
       .first_i(log_first),

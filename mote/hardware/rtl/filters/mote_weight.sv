@@ -20,6 +20,7 @@ module mote_weight #(
     parameter int unsigned LogWidth = 24,
     parameter int unsigned Width    = 24,
     parameter Table                 = "exp2.hex",
+    parameter bit TableLogic        = 1'b0,  // mote_rom's Logic
     localparam int unsigned Frac    = 10,
     localparam int unsigned ScaleWidth = LogWidth - Frac - 3 + 1
 ) (
@@ -41,8 +42,19 @@ module mote_weight #(
     limited = difference > ScaleWidth'(3) ? 2'd3 : difference[1:0];
   endfunction
 
-  logic [11:0] table_rom[1<<Frac];
-  initial $readmemh(Table, table_rom);
+  // 2^f - 1 of the fraction f of each log weight; a block of memory has two lanes' ports.
+  logic [Lanes*12-1:0] power_q;
+  if (TableLogic) begin : gen_logic
+    for (genvar l = 0; l < Lanes; l++) begin : gen_lane
+      mote_rom #(.AddressWidth(Frac), .Width(12), .OutRegister(1'b0), .Logic(1'b1), .File(Table)) u_power (
+          .clk_i, .address_i(log_weight_i[l*LogWidth+:Frac]), .word_o(power_q[l*12+:12]));
+    end
+  end else begin : gen_block
+    logic [11:0] table_rom[1<<Frac];
+    initial $readmemh(Table, table_rom);
+    always_ff @(posedge clk_i)
+      for (int l = 0; l < Lanes; l++) power_q[l*12+:12] <= table_rom[log_weight_i[l*LogWidth+:Frac]];
+  end
 
   // The floors of lw / 8, one below the scale that each weight asks for, and the greatest of them.
   localparam int unsigned FloorWidth = ScaleWidth - 1;
@@ -78,15 +90,14 @@ module mote_weight #(
     scale_t      floor_q;
     logic [2:0]  fine_q, fine, fine2_q;
     logic [1:0]  coarse2_q;
-    logic [11:0] power_q, power, power2_q;
-    mote_delay #(.Width(15), .Depth(Before)) u_mantissa (.clk_i, .d_i({fine_q, power_q}), .d_o({fine, power}));
+    logic [11:0] power, power2_q;
+    mote_delay #(.Width(15), .Depth(Before)) u_mantissa (.clk_i, .d_i({fine_q, power_q[l*12+:12]}), .d_o({fine, power}));
     always_ff @(posedge clk_i or negedge rst_ni) begin  // a reset keeps them out of slow shift registers
       if (!rst_ni) {floor_q, fine2_q, power2_q} <= '0;
       else {floor_q, fine2_q, power2_q} <= {ScaleWidth'($signed(floors_then[l*FloorWidth+:FloorWidth])), fine, power};
     end
     always_ff @(posedge clk_i) begin
       fine_q    <= ~log_weight_i[l*LogWidth+Frac+:3];
-      power_q   <= table_rom[log_weight_i[l*LogWidth+:Frac]];
       coarse2_q <= limited(level_q - floor_q);
       weight_o[l*Width+:Width] <= coarse2_q == 2'd3 ? '0
                                 : {1'b1, power2_q, {(Width - 13) {1'b0}}} >> {coarse2_q, 3'b0} >> fine2_q;
