@@ -98,11 +98,11 @@ TEST(Rtl, TakesTurnsAtWhatIsCostly) {
   }
 }
 
-// claim    words are chosen for the recording that is played: inputs that the model does not draw, steps further on
-// than
-//          those that it draws, a likelihood that it cannot draw from
+// claim    words hold what is played: inputs that the model does not draw, steps further on than those that it draws, a
+//          likelihood that it cannot draw from; and any units
 // referee  mote run on the same recording, N = 20 000; the estimates of N = 300 are near its mean
-// design   a range from a sensor that moves 100 m, a walk that goes 300 in 600 steps, Student-t errors without a law
+// design   a range from a sensor that moves 100 m, a walk that goes 300 in 600 steps, Student-t errors without a law,
+//          lengths of 2e7 and of 1e-4, a push that begins at t = 21
 class RtlOfTexts : public ::testing::Test {
  protected:
   void expect_near_the_double_filter(const std::string& model, double within) const {
