@@ -1,14 +1,21 @@
 #include "mote/graph/record.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <map>
 #include <stdexcept>
 
 namespace mote::graph {
 namespace {
 
-/// Steps at which a model is laid side by side with itself.
+/// Steps at which a model has to do the same operations.
 constexpr std::array<Step, 4> kProbes{1, 2, 3, 7};
+
+/// Steps at which constants are looked at, from 1 on: what follows t only later on is found by those far away.
+constexpr Step kLastLook = 65535, kEveryStepTo = 256;
+constexpr Step look_after(Step t) { return t < kEveryStepTo ? t + 1 : t + t / 16; }
 
 /// The constants of a trace, by vertex; where traces differ in more, they are not of one model.
 bool same_operations(const Graph& a, const Graph& b) {
@@ -20,27 +27,41 @@ bool same_operations(const Graph& a, const Graph& b) {
 
 bool same_number(double a, double b) { return a == b || (a != a && b != b); }
 
+[[noreturn]] void refuse_change(Step t) {
+  throw std::logic_error("record: the model does other operations at t = " + std::to_string(t) + " than at t = 1");
+}
+
+/// The constants of a model's traces: (looks,) of (vertices,), up to where it does other operations.
+std::vector<std::vector<double>> constants_of(const std::function<Trace(Step)>& trace, const Trace& first) {
+  std::vector<std::vector<double>> looks;
+  for (Step t = 1; t <= kLastLook; t = look_after(t)) {
+    const Trace now = trace(t);
+    if (!same_operations(now.graph, first.graph)) break;
+    std::vector<double>& values = looks.emplace_back();
+    for (const Vertex& v : now.graph.vertices()) values.push_back(v.value);
+  }
+  return looks;
+}
+
 /// Which constants follow t, and the places of each number of the schedule in the trace.
 struct Schedule {
   std::map<Id, std::uint32_t> number;  ///< by vertex of the trace
   std::vector<Id> places;              ///< by number, one of its vertices
 
-  explicit Schedule(const std::vector<Trace>& traces) {
-    std::map<std::array<double, kProbes.size()>, std::uint32_t> known;
-    for (Id id = 0; id < traces[0].graph.size(); ++id) {
-      std::array<double, kProbes.size()> values{};
-      for (std::size_t k = 0; k < kProbes.size(); ++k) values[k] = traces[k].graph[id].value;
-      if (std::all_of(values.begin(), values.end(), [&](double v) { return same_number(v, values[0]); })) continue;
+  explicit Schedule(const std::vector<std::vector<double>>& looks) {
+    std::map<std::vector<std::uint64_t>, std::uint32_t> known;  // by the bits of all values
+    for (Id id = 0; id < looks[0].size(); ++id) {
+      if (std::all_of(looks.begin(), looks.end(),
+                      [&](const auto& look) { return same_number(look[id], looks[0][id]); }))
+        continue;
+      std::vector<std::uint64_t> values;
+      for (const auto& look : looks) values.push_back(std::bit_cast<std::uint64_t>(look[id]));
       const auto [place, fresh] = known.try_emplace(values, static_cast<std::uint32_t>(places.size()));
       if (fresh) places.push_back(id);
       number.emplace(id, place->second);
     }
   }
 };
-
-[[noreturn]] void refuse_change(Step t) {
-  throw std::logic_error("record: the model does other operations at t = " + std::to_string(t) + " than at t = 1");
-}
 
 /// The trace with the numbers of the schedule as inputs.
 Graph with_schedule(const Graph& trace, const Schedule& schedule, std::vector<Id>& now) {
@@ -118,16 +139,14 @@ std::string Recorded::name_of(const Vertex& input) const {
 
 Recorded recorded(const std::function<Trace(Step)>& trace, std::vector<Quantity> states, std::vector<Column> columns,
                   Identities identities) {
-  std::vector<Trace> traces;
-  for (const Step t : kProbes) {
-    traces.push_back(trace(t));
-    if (!same_operations(traces.back().graph, traces[0].graph)) refuse_change(t);
-  }
-  const Schedule schedule(traces);
+  const Trace first = trace(kProbes[0]);
+  for (const Step t : kProbes)
+    if (!same_operations(trace(t).graph, first.graph)) refuse_change(t);
+  const Schedule schedule(constants_of(trace, first));
   std::vector<Id> now;
-  const Graph graph = with_schedule(traces[0].graph, schedule, now);
+  const Graph graph = with_schedule(first.graph, schedule, now);
   std::vector<Id> outputs;
-  for (const Id id : traces[0].outputs) outputs.push_back(now[id]);
+  for (const Id id : first.outputs) outputs.push_back(now[id]);
   Outputs simple = simplified(graph, outputs, identities);
 
   Recorded made;
@@ -137,17 +156,17 @@ Recorded recorded(const std::function<Trace(Step)>& trace, std::vector<Quantity>
   made.next.assign(simple.ids.begin() + d, simple.ids.begin() + 2 * d);
   made.log_likelihood = simple.ids[2 * states.size()];
   auto more = simple.ids.begin() + 2 * d + 1;
-  if (traces[0].has_transition) made.log_transition = *more++;
+  if (first.has_transition) made.log_transition = *more++;
   if (more != simple.ids.end()) {
     made.proposed.assign(more, more + d);
     made.log_ratio = more[d];
   }
   made.states = std::move(states);
   made.columns = std::move(columns);
-  made.prior_draws = traces[0].prior_draws;
-  made.draws = traces[0].draws;
-  made.proposal_draws = traces[0].proposal_draws;
-  made.schedule = [trace, schedule, first = traces[0]](Step t) { return schedule_at(t, trace(t), first, schedule); };
+  made.prior_draws = first.prior_draws;
+  made.draws = first.draws;
+  made.proposal_draws = first.proposal_draws;
+  made.schedule = [trace, schedule, first](Step t) { return schedule_at(t, trace(t), first, schedule); };
   return made;
 }
 

@@ -3,9 +3,11 @@
 #include <array>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "mote/app/files/table.hpp"
 #include "tests/app/program.hpp"
 
 namespace mote::testing {
@@ -94,6 +96,85 @@ TEST(Rtl, TakesTurnsAtWhatIsCostly) {
     const Ended passed = scratch.shell("sh turns/golden/run.sh && sh turns/testbench/run.sh");
     EXPECT_EQ(passed.code, 0) << passed.err << passed.out;
   }
+}
+
+// claim    words hold what is played: inputs that the model does not draw, steps further on than those that it draws, a
+//          likelihood that it cannot draw from; and any units
+// referee  mote run on the same recording, N = 20 000; the estimates of N = 300 are near its mean
+// design   a range from a sensor that moves 100 m, a walk that goes 300 in 600 steps, Student-t errors without a law,
+//          lengths of 2e7 and of 1e-4, a push that begins at t = 21
+class RtlOfTexts : public ::testing::Test {
+ protected:
+  void expect_near_the_double_filter(const std::string& model, double within) const {
+    const std::string name = model + ".toml";
+    expect_done(scratch_.shell("mote run " + name + " --data d.csv -n 20000 --out run.csv"));
+    expect_done(
+        scratch_.shell("mote rtl " + name + " --arch sisr -n 300 --simulate d.csv --json j.json --out " + model));
+    EXPECT_EQ(Json::parse(scratch_.read("j.json"))["mismatches"], 0);
+    const Table run = read_table((scratch_.path() / "run.csv").string());
+    const Table circuit = read_table((scratch_.path() / model / "estimates.csv").string());
+    ASSERT_EQ(run.lines.size(), circuit.lines.size());
+    double squares = 0;
+    for (std::size_t i = 0; i < run.lines.size(); ++i)
+      squares += std::pow(number_field(run, run.lines[i], 1) - number_field(circuit, circuit.lines[i], 1), 2);
+    EXPECT_LT(std::sqrt(squares / static_cast<double>(run.lines.size())), within) << name;
+  }
+
+  Scratch scratch_;
+};
+
+TEST_F(RtlOfTexts, TakeInputsWhereTheDataHaveThem) {
+  scratch_.write("moving.toml",
+                 "[inputs]\nfrom = 0\n[states]\nx = \"normal(20, 5)\"\n[next]\nx = \"x + normal(0, 0.5)\"\n"
+                 "[observations]\nrange = \"normal(sqrt((x - from)^2 + 25), 0.5)\"\n");
+  std::string data = "t,range,from\n";
+  for (int t = 1; t <= 40; ++t)
+    data += fmt::format("{},{},{}\n", t, std::hypot(20 - 2.5 * t, 5) + 0.3 * std::sin(7 * t), 2.5 * t);
+  scratch_.write("d.csv", data);
+  expect_near_the_double_filter("moving", 0.3);
+}
+
+TEST_F(RtlOfTexts, GoFurtherThanTheModelDraws) {
+  scratch_.write("walk.toml",
+                 "[states]\nx = \"normal(0, 1)\"\n[next]\nx = \"x + 0.5 + normal(0, 1)\"\n[observations]\ny = "
+                 "\"normal(x + 0.1*t, 1)\"\n");
+  expect_done(scratch_.shell("mote simulate walk.toml --steps 600 --out d.csv"));
+  expect_near_the_double_filter("walk", 0.2);
+}
+
+TEST_F(RtlOfTexts, HaveAnyUnits) {
+  scratch_.write("far.toml",
+                 "[states]\nx = \"normal(0, 500)\"\n[next]\nx = \"x + normal(0, 20)\"\n[observations]\n"
+                 "range = \"normal(sqrt((x - 1.5e7)^2 + 4e14), 10)\"\n");
+  expect_done(scratch_.shell("mote simulate far.toml --steps 30 --out d.csv"));
+  expect_near_the_double_filter("far", 3);
+  scratch_.write("small.toml",
+                 "[states]\nx = \"normal(1e-4, 3e-5)\"\n[next]\nx = \"x + normal(0, 1e-5)\"\n[observations]\n"
+                 "y = \"normal(sqrt(x^2 + 1e-8), 1e-5)\"\n");
+  expect_done(scratch_.shell("mote simulate small.toml --steps 30 --out d.csv"));
+  expect_near_the_double_filter("small", 2e-6);
+}
+
+TEST_F(RtlOfTexts, ChangeAtSomeStep) {
+  scratch_.write("step.toml",
+                 "[states]\nx = \"normal(0, 1)\"\n[next]\nx = \"0.9*x + 2*min(1, max(0, t - 20)) + normal(0, 0.5)\"\n"
+                 "[observations]\ny = \"normal(x, 1)\"\n");
+  expect_done(scratch_.shell("mote simulate step.toml --steps 50 --out d.csv"));
+  expect_near_the_double_filter("step", 0.2);
+}
+
+TEST_F(RtlOfTexts, NeedNoLawWhereARecordingIsPlayed) {
+  scratch_.write("heavy.toml",
+                 "[states]\nx = \"normal(0, 1)\"\n[next]\nx = \"x + 0.3*normal(0, 1)\"\n[observations]\n"
+                 "log_likelihood = \"-2*log(1 + ((y - x)/0.5)^2/3)\"\n");
+  std::string data = "t,y\n";
+  for (int t = 1; t <= 40; ++t)
+    data += fmt::format("{},{}\n", t, std::sin(0.2 * t) + 0.4 * std::sin(7 * t) + (t == 20 ? 9 : 0));
+  scratch_.write("d.csv", data);
+  expect_near_the_double_filter("heavy", 0.1);
+  const Ended refused = scratch_.shell("mote rtl heavy.toml --arch sisr -n 300");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("Pass --simulate obs.csv"), std::string::npos) << refused.err;
 }
 
 TEST(Rtl, WritesAFolderWhoseTestbenchPasses) {

@@ -49,8 +49,13 @@ hardware::ModelCircuit model_circuit(const std::string& name, const FilterCircui
 }  // namespace
 
 ModelDatapath model_datapath(const std::shared_ptr<const CatalogueModel>& model, const std::string& name,
-                             const CircuitDesign& design) {
-  const WordStudy study(*model_of_instance(model, name, design), sample_design(design));
+                             const CircuitDesign& design, const Recording& played) {
+  const auto part = model_of_instance(model, name, design);
+  WordStudyDesign samples = sample_design(design);
+  if (!played.steps.empty())
+    for (unsigned i = 0; i < design.instances; ++i)
+      samples.given.push_back(instance_of(part->columns().size(), design, played, i));
+  const WordStudy study(*part, samples);
   hardware::DatapathOptions options;
   options.prefix = "mote_" + identifier(name);
   options.overlapped = design.variant.overlapped;
@@ -75,8 +80,8 @@ FilterCircuit filter_circuit(const std::shared_ptr<const CatalogueModel>& model,
 }
 
 FilterCircuit filter_circuit(const std::shared_ptr<const CatalogueModel>& model, const std::string& name,
-                             const CircuitDesign& design) {
-  return filter_circuit(model, name, design, model_datapath(model, name, design));
+                             const CircuitDesign& design, const Recording& played) {
+  return filter_circuit(model, name, design, model_datapath(model, name, design, played));
 }
 
 }  // namespace mote

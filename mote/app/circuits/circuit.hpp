@@ -45,12 +45,14 @@ struct ModelDatapath {
 };
 
 /// The pipelines of a design: they depend on its instances, proposal, more_bits, interval, where tables stand and
-/// whether steps overlap. Words are chosen on recordings that the model draws.
+/// whether steps overlap. Words are chosen on recordings that the model draws, and on the one that will be played, if
+/// any: real inputs and long runs go where those that it draws do not.
 ///
-/// error   Refusal (kWrongUse): the model is not as many copies as instances are asked for
+/// error   Refusal (kWrongUse): the model is not as many copies as instances are asked for, or it cannot be drawn from
+///         and nothing is played
 /// cost    a second or two
 ModelDatapath model_datapath(const std::shared_ptr<const CatalogueModel>& model, const std::string& name,
-                             const CircuitDesign& design);
+                             const CircuitDesign& design, const Recording& played = {});
 
 /// The design's filter around pipelines of it.
 FilterCircuit filter_circuit(const std::shared_ptr<const CatalogueModel>& model, const std::string& name,
@@ -61,6 +63,6 @@ FilterCircuit filter_circuit(const std::shared_ptr<const CatalogueModel>& model,
 /// error   as model_datapath()
 /// cost    likewise
 FilterCircuit filter_circuit(const std::shared_ptr<const CatalogueModel>& model, const std::string& name,
-                             const CircuitDesign& design);
+                             const CircuitDesign& design, const Recording& played = {});
 
 }  // namespace mote

@@ -250,7 +250,8 @@ void write_design(OutputSet& outputs, const std::string& folder, const FilterCir
                   const CircuitReport& found, const Recording& played, const std::string& where) {
   std::vector<Vectors> all;
   for (unsigned i = 0; i < found.design.instances; ++i)
-    all.push_back(vectors_of(circuit, found.design, i, instance_of(circuit, found.design, played, i), where));
+    all.push_back(vectors_of(circuit, found.design, i,
+                             instance_of(circuit.recorded.columns.size(), found.design, played, i), where));
   write_files(outputs, folder, files_of(circuit, found, all));
 }
 

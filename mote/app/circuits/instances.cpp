@@ -69,10 +69,9 @@ std::shared_ptr<const CatalogueModel> model_of_instance(const std::shared_ptr<co
                  "Pass ungm with --set copies=2."});
 }
 
-Recording instance_of(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
+Recording instance_of(std::size_t columns, const CircuitDesign& design, const Recording& recording,
                       std::size_t instance) {
   if (design.instances == 1) return recording;
-  const std::size_t columns = circuit.recorded.columns.size();
   Recording seen;
   for (const ObservedStep& step : recording.steps) {
     ObservedStep& own = seen.steps.emplace_back(ObservedStep{step.t, {}});

@@ -14,8 +14,8 @@ namespace mote {
 std::shared_ptr<const CatalogueModel> model_of_instance(const std::shared_ptr<const CatalogueModel>& model,
                                                         const std::string& name, const CircuitDesign& design);
 
-/// What an instance sees of a recording: of each row its own columns.
-Recording instance_of(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
+/// What an instance sees of a recording: of each row its own columns, so many.
+Recording instance_of(std::size_t columns, const CircuitDesign& design, const Recording& recording,
                       std::size_t instance);
 
 /// The seed of an instance's generators: the first one's is the design's.

@@ -88,7 +88,7 @@ RunRecord run_of_instances(const FilterCircuit& circuit, const CircuitDesign& de
                            const std::string& where, const RunOne& run) {
   std::vector<RunRecord> records;
   for (unsigned i = 0; i < design.instances; ++i) {
-    const Recording seen = instance_of(circuit, design, recording, i);
+    const Recording seen = instance_of(circuit.recorded.columns.size(), design, recording, i);
     records.push_back(record_of(circuit, design, seen, run(i, observed_by(circuit, seen, where))));
   }
   return design.instances == 1 ? records.front() : side_by_side(records, circuit.states);

@@ -14,12 +14,13 @@
 #include "mote/app/commands/rtl_options.hpp"
 #include "mote/app/files/output.hpp"
 #include "mote/app/files/recording_file.hpp"
+#include "mote/app/words/study.hpp"
 #include "mote/base/refusal.hpp"
 
 namespace mote {
 namespace {
 
-/// The model as the recording sizes it; without one as --columns does.
+/// The model as the recording sizes it; without one as --columns does. Words are chosen on recordings.
 Job job_from(const Arguments& arguments) {
   const std::string model = arguments.required("MODEL", "a model (see mote models), or a .toml file", "Name one.");
   if (arguments.given("--simulate"))
@@ -33,6 +34,9 @@ Job job_from(const Arguments& arguments) {
   job.model = find_model(model, arguments.where())
                   .make(Settings(arguments.where(), arguments.list("--set")),
                         frame_header(arguments.integer("--columns", 1, 64)));
+  if (!can_be_drawn(*job.model))
+    throw Refusal(ExitCode::kWrongUse, {arguments.where(), model, "laws to draw recordings by, or a recording",
+                                        "neither", "Pass --simulate obs.csv, or write laws beside log_likelihood."});
   return job;
 }
 
@@ -131,7 +135,7 @@ ExitCode run_rtl(const Arguments& arguments) {
   Output* json = outputs.open(arguments.text("--json"));
   Output* report = outputs.open(arguments.text("--report"));
   CircuitReport found{job.model_name, arguments.command_line(), design, {}, {}, {}};
-  const FilterCircuit circuit = filter_circuit(job.model, job.model_name, design);
+  const FilterCircuit circuit = filter_circuit(job.model, job.model_name, design, job.recording);
   if (arguments.given("--simulate"))
     found.simulation =
         simulated_run(circuit, design, job.recording, arguments.text("--simulate"), family == hardware::Family::kXc7);

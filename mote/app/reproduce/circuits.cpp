@@ -42,7 +42,8 @@ RunRecord CircuitBench::record(const Recording& recording, std::uint64_t seed_of
 }
 
 double CircuitBench::step_cycles(const Recording& recording) {
-  const auto observed = observed_by(circuit(), instance_of(circuit(), design_, recording, 0), where_);
+  const auto observed =
+      observed_by(circuit(), instance_of(circuit().recorded.columns.size(), design_, recording, 0), where_);
   hardware::Simulator simulator(*circuit().machine);
   const auto cycles = [&](std::size_t steps) {
     const auto end = observed.begin() + static_cast<std::ptrdiff_t>(steps);

@@ -1,5 +1,6 @@
 #include "mote/app/words/pairs.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -27,6 +28,13 @@ std::vector<double> taken(const std::vector<double>& values, const std::vector<g
   std::vector<double> all;
   for (const graph::Id id : ids) all.push_back(values[id]);
   return all;
+}
+
+/// Whether a step has a row, and all of it was seen.
+bool is_whole(const ObservedStep& step) {
+  if (step.rows.empty()) return false;
+  const auto& present = step.rows.front().present;
+  return std::all_of(present.begin(), present.end(), [](bool seen) { return seen; });
 }
 
 /// Which draws a pair takes: those of the proposal, and of the model's own move what that has more.
@@ -87,6 +95,7 @@ void PairSampling::filter(const Recording& recording, std::size_t particles, std
   std::vector<State> parents(particles);
   Draws{seed, 0}.for_each(Purpose::kPrior, 0, particles, [&](std::size_t i, auto& draw) { parents[i] = prior(draw); });
   for (const ObservedStep& step : recording.steps) {
+    if (!is_whole(step)) continue;
     const Draws draws{seed, static_cast<std::uint32_t>(step.t)};
     const std::vector<double> schedule = recorded_->schedule(step.t);
     std::vector<State> proposals(particles);

@@ -15,7 +15,7 @@ namespace mote {
 ///
 ///   x ~ g(. | x^k, y),   w = p(y | x) p(x | x^k) / g(x | x^k, y),   parents by systematic resampling
 ///
-/// shape   one pair in `stride` is kept, `most` of them; recordings of whole rows
+/// shape   one pair in `stride` is kept, `most` of them; steps without a whole row are left out
 /// cost    O(vertices) a particle and step
 /// source  IMH-OPT (23)
 class PairSampling {

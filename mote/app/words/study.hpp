@@ -10,7 +10,10 @@
 
 namespace mote {
 
-/// What a study simulates.
+/// Whether recordings can be drawn: a model given as text need not say how what it observes comes about.
+bool can_be_drawn(const CatalogueModel& model);
+
+/// What a study simulates, and what it is given.
 struct WordStudyDesign {
   std::size_t particles = 200;
   Step steps = 50;
@@ -18,6 +21,7 @@ struct WordStudyDesign {
   std::uint64_t seed = 1;
   std::string where = {};          ///< who asks for it, for refusals
   std::string proposal = "prior";  ///< whose particles circuits' words are chosen by
+  std::vector<Recording> given;    ///< recordings beside those that the model draws; their truth is not known
   double margin = 0.25;            ///< by which ranges are wider than what was seen
   graph::WordSearch search;
 };
@@ -33,7 +37,10 @@ struct WordStudyDesign {
 /// themselves part where rounding first makes another ancestor, and then differ by chance.
 class WordStudy {
  public:
-  /// `first` is the number of its first recording: studies of other numbers are independent.
+  /// `first` is the number of its first recording: studies of other numbers are independent. A model that cannot be
+  /// drawn from (a text without laws) is studied on the recordings given, where there are any.
+  ///
+  /// error   Refusal (kWrongUse): it cannot be drawn from, and none are given
   WordStudy(const CatalogueModel& model, const WordStudyDesign& design, std::size_t first = 0);
 
   const graph::Recorded& recorded() const { return recorded_; }
@@ -50,6 +57,8 @@ class WordStudy {
   struct Squares {
     std::vector<double> errors, differences;
   };
+  std::size_t particles_of(const Scene& scene) const;
+  std::size_t calls() const;
   template <class A>
   Squares squares(const std::shared_ptr<A>& arithmetic) const;
 

@@ -193,6 +193,21 @@ TEST(TextModel, IsRecordedLikeAnyModel) {
   EXPECT_EQ(operations(recorded.graph, recorded.next), moves);
 }
 
+// claim    numbers that follow t only later on are numbers of the schedule all the same; one that two right-hand sides
+//          have is one
+// referee  the expressions by hand
+TEST(TextModel, IsRecordedWithWhatFollowsTheTimeLater) {
+  const Recorded recorded = record(
+      made("[states]\nx = \"normal(0, 1)\"\nz = \"normal(0, 1)\"\n[next]\nx = \"x + max(0, t - 50) + normal(0, 1)\"\n"
+           "z = \"z*max(0, t - 50) + x*min(t, 900) + 2*normal(0, 1)\"\n[observations]\ny = \"normal(x + z, 1)\"\n"));
+  for (const Step t : {1, 49, 55, 899, 5000}) {
+    const std::vector<double> schedule = recorded.schedule(t);
+    ASSERT_EQ(schedule.size(), 2U);
+    EXPECT_EQ(schedule[0], std::max(0.0, static_cast<double>(t) - 50)) << t;
+    EXPECT_EQ(schedule[1], std::min(static_cast<double>(t), 900.0)) << t;
+  }
+}
+
 std::string refusal_of(const std::string& text) {
   try {
     made(text);

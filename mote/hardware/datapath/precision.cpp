@@ -21,7 +21,9 @@ constexpr double kLogStep = 1.0 / 16, kStateLogStep = 0.25;  // octaves
 constexpr double kFaintOctaves = 8;
 // times what is borne in the mean that no sample may exceed; of pairs less, whose log density is steep in few places
 constexpr double kWorst = 8, kWorstOfPairs = 0.25;
-constexpr int kMostFraction = 30, kMostBits = 40, kMostOfFunction = 24;
+// after the point of numbers about 1, and of the smallest
+constexpr int kMostFraction = 30, kMostOfSmall = 60;
+constexpr int kMostBits = 40;
 constexpr int kConstantBits = 3;  // more: a constant's error is the same for all particles
 
 /// Mean squares of slopes, each finite one, and the largest.
@@ -46,6 +48,14 @@ bool is_draw(const Vertex& v) {
 bool is_function(Op op) {
   return op == Op::kDivide || op == Op::kSqrt || op == Op::kExp || op == Op::kLog || op == Op::kSin || op == Op::kCos ||
          op == Op::kTan || op == Op::kAtan || op == Op::kAtan2;
+}
+
+/// Bits of a function's result that no table of polynomials is exact to.
+int beyond_tables(Op op, const Format& y) {
+  if (op == Op::kDivide || op == Op::kExp) return y.integer + y.fraction - 22;
+  if (op == Op::kSin || op == Op::kCos) return std::max(y.width(), y.fraction) - 24;
+  if (op == Op::kAtan || op == Op::kAtan2) return y.fraction - 21;
+  return y.width() - 24;
 }
 
 class Analysis {
@@ -216,7 +226,14 @@ class Analysis {
     const bool constant = plan_.graph.is_constant(id);
     if (plan_.graph[id].op == Op::kFloor) return 0;
     return std::clamp(static_cast<int>(bits) + more_bits + (constant ? kConstantBits : 0),
-                      constant ? -kMostFraction : 0, kMostFraction);
+                      constant ? -kMostFraction : 0, most_fraction(id));
+  }
+
+  /// Numbers far below 1 have as many bits as those about 1: units are the user's.
+  int most_fraction(Id id) const {
+    const double size = std::max(std::abs(seen_[id].low), std::abs(seen_[id].high));
+    const bool small = std::isfinite(size) && size > 0 && size < 1;
+    return std::min(kMostOfSmall, kMostFraction - (small ? std::ilogb(size) : 0));
   }
 
   Format format_of(Id id, const graph::Ranges& ranges, int fraction) const {
@@ -228,7 +245,7 @@ class Analysis {
     const auto by = [&](const Interval& range) { return graph::format_for(range, fraction, kMostBits); };
     Format format = by(v.op == Op::kFloor ? ranges.analysed[id] : ranges.kept[id]);
     if (const Format safe = by(ranges.analysed[id]); safe.width() <= format.width() + 2) format = safe;
-    if (is_function(v.op)) format.fraction -= std::clamp(format.width() - kMostOfFunction, 0, format.fraction);
+    if (is_function(v.op)) format.fraction -= std::max(0, beyond_tables(v.op, format));
     return format;
   }
 
@@ -263,8 +280,16 @@ class Analysis {
     for (std::size_t d = 0; d < dims; ++d) {
       all.states[d].fraction += width - all.states[d].width();
       for (const Id id : ids_of_state(d))
-        if (!plan_.graph.is_constant(id)) all.formats[id] = all.states[d];
+        if (!keeps_its_format(id, d, all.states[d])) all.formats[id] = all.states[d];
     }
+  }
+
+  /// Whether what goes out as state d is converted only there: a constant, another state's parent that is handed on, a
+  /// function that no table is exact enough to.
+  bool keeps_its_format(Id id, std::size_t d, const Format& state) const {
+    const Vertex& v = plan_.graph[id];
+    const bool other = v.op == Op::kInput && (v.role == Role::kState || v.role == Role::kBefore) && v.index != d;
+    return plan_.graph.is_constant(id) || other || (is_function(v.op) && beyond_tables(v.op, state) > 0);
   }
 
   /// Where a state comes in and goes out.
