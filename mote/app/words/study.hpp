@@ -21,7 +21,7 @@ struct WordStudyDesign {
   std::uint64_t seed = 1;
   std::string where = {};          ///< who asks for it, for refusals
   std::string proposal = "prior";  ///< whose particles circuits' words are chosen by
-  std::vector<Recording> given;    ///< recordings beside those that the model draws; their truth is not known
+  std::vector<Recording> given{};  ///< recordings beside those that the model draws; their truth is not known
   double margin = 0.25;            ///< by which ranges are wider than what was seen
   graph::WordSearch search;
 };

@@ -111,7 +111,9 @@ TYPED_TEST(ImhCircuit, EqualsTheGoldenModelForAMillionParticleSteps) {
 // and weigher before one chain that decides on all of a row in a cycle, steps that follow one another without a gap.
 double law_of(const ImhRegisters& r, const ImhLanes& lanes, const Formats& f) {
   if (lanes.overlapped) return lanes.rows(r);
-  const StageLatencies latencies{4.0 + f.propose_latency, static_cast<double>(f.weigh_latency + lanes.chain_latency())};
+  const auto before_the_proposal = static_cast<double>(4 + lanes.turn_latency());  // lanes choose memories in turn
+  const StageLatencies latencies{before_the_proposal + f.propose_latency,
+                                 static_cast<double>(f.weigh_latency + lanes.chain_latency())};
   const double turn = f.interval;
   if (!lanes.folded) return sequential_time(r.draws / lanes.count + r.burn_in, {turn, turn, 1}, latencies);
   return paired_time(r.draws + r.burn_in, lanes.count, {1, 1, 1.0 / lanes.count}, latencies);
