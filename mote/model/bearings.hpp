@@ -118,8 +118,8 @@ struct Bearings {
   /// Standard deviation of the second acceleration, in m/s^2.
   double across() const { return p.sigma_across > 0 ? p.sigma_across : p.sigma_u; }
 
-  // Inlined with what it calls: or the SIMD engine's loop over particles would hand states over through memory, and take
-  // a logarithm of the parameters for each.
+  // Inlined with what it calls: or the SIMD engine's loop over particles would hand states over through memory, and
+  // take a logarithm of the parameters for each.
   template <class S>
   [[gnu::always_inline]] S log_likelihood(Step, const State<S>& x, const Row<S>& y) const {
     const NormalDensity normal(scale() * scale());
