@@ -67,13 +67,42 @@ class Acceptances {
       return Vector<R>(Registers<R>{{Register{
           _mm512_permutex2var_pd(values, _mm512_cvtepi8_epi64(_mm_loadl_epi64(places)), _mm512_set1_pd(before))}}});
 #else
-    alignas(64) std::array<R, kLanes> all;
-    offered.store(all.data());
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      if ((steps_[lane] >> k & 1U) != 0) before = all[k];
-      all[k] = before;
+    // register by register: the last offer of each, or what the one before ended with
+    using Parts = Registers<R>;
+    constexpr std::size_t kPer = Parts::kPerRegister;
+    Vector<R> all;
+    auto carried = hn::Set(typename Parts::Tag{}, before);
+    for (std::size_t k = 0; k < Parts::kCount; ++k) {
+      const auto& row = kLast[steps_[lane] >> (k * kPer) & ((1U << kPer) - 1)];
+      const auto values = offered.parts.r[k].raw;
+#if HWY_TARGET == HWY_AVX2
+      const __m256i last = _mm256_cvtepi8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(row.data())));
+      if constexpr (std::is_same_v<R, float>) {
+        all.parts.r[k].raw =
+            _mm256_blendv_ps(_mm256_permutevar8x32_ps(values, last), carried.raw, _mm256_castsi256_ps(last));
+        carried.raw = _mm256_permutevar8x32_ps(all.parts.r[k].raw, _mm256_set1_epi32(7));
+      } else {
+        const __m256 moved = _mm256_permutevar8x32_ps(_mm256_castpd_ps(values), last);
+        all.parts.r[k].raw = _mm256_blendv_pd(_mm256_castps_pd(moved), carried.raw, _mm256_castsi256_pd(last));
+        carried.raw = _mm256_permute4x64_pd(all.parts.r[k].raw, 0xFF);
+      }
+#else
+      const __m128i last = _mm_load_si128(reinterpret_cast<const __m128i*>(row.data()));
+      const auto held_then = [&](__m128i offers, __m128i earlier) __attribute__((always_inline)) {
+        return _mm_blendv_epi8(_mm_shuffle_epi8(offers, last), earlier, last);
+      };
+      if constexpr (std::is_same_v<R, float>) {
+        const __m128i held = held_then(_mm_castps_si128(values), _mm_castps_si128(carried.raw));
+        all.parts.r[k].raw = _mm_castsi128_ps(held);
+        carried.raw = _mm_castsi128_ps(_mm_shuffle_epi32(held, 0xFF));
+      } else {
+        const __m128i held = held_then(_mm_castpd_si128(values), _mm_castpd_si128(carried.raw));
+        all.parts.r[k].raw = _mm_castsi128_pd(held);
+        carried.raw = _mm_castsi128_pd(_mm_shuffle_epi32(held, 0xEE));
+      }
+#endif
     }
-    return Vector<R>::load(all.data());
+    return all;
 #endif
   }
 
@@ -102,6 +131,24 @@ class Acceptances {
   alignas(64) std::array<std::int8_t, kLanes * kLanes> places_;
 #else
   void count_places() {}
+
+  /// Where the last accepted offer of a register is after each step, by the steps in which it was accepted; negative
+  /// where there is none. AVX2: by halves of eight bytes, which become words; SSE4: by bytes.
+  static constexpr std::size_t kStepsAtOnce = Registers<R>::kPerRegister;
+  static constexpr std::size_t kParts = (HWY_TARGET == HWY_AVX2 ? 8 : 16) / kStepsAtOnce;  // of an offer
+  alignas(16) static constexpr auto kLast = [] {
+    std::array<std::array<std::int8_t, kParts * kStepsAtOnce>, std::size_t{1} << kStepsAtOnce> all{};
+    for (std::size_t steps = 0; steps < all.size(); ++steps) {
+      int last = -1;
+      for (std::size_t step = 0; step < kStepsAtOnce; ++step) {
+        if ((steps >> step & 1U) != 0) last = static_cast<int>(step);
+        for (std::size_t part = 0; part < kParts; ++part)
+          all[steps][step * kParts + part] =
+              static_cast<std::int8_t>(last < 0 ? -1 : last * static_cast<int>(kParts) + static_cast<int>(part));
+      }
+    }
+    return all;
+  }();
 #endif
 
   std::array<std::uint32_t, kLanes> steps_;  // a bit each

@@ -165,33 +165,32 @@ MOTE_INLINE Vector<R> exp(const Vector<R>& x) {
   return select(x == x, result, x);
 }
 
+namespace detail {
+
+/// log(2^more x) of positive normal numbers x.
 template <class R>
-MOTE_INLINE Vector<R> log(const Vector<R>& x) {
+MOTE_INLINE Vector<R> log_of_normal(const Vector<R>& x, const Vector<R>& more) {
   using V = Vector<R>;
-  using I = Registers<detail::Whole<R>>;
+  using I = Registers<Whole<R>>;
   using T = typename I::Tag;
   constexpr bool kFloat = std::is_same_v<R, float>;
-  // a subnormal is scaled up first
-  const auto tiny = x < V(kFloat ? 0x1p-126 : 0x1p-1022);
-  const V normal = select(tiny, x * V(kFloat ? 0x1p25 : 0x1p54), x);
   // x = 2^e m with m in [1/sqrt 2, sqrt 2): subtract the bits of 1/sqrt 2, what is left above the mantissa is e
-  constexpr auto kRootBits =
-      kFloat ? static_cast<detail::Whole<R>>(0x3F3504F3) : static_cast<detail::Whole<R>>(0x3FE6A09E667F3BCDLL);
-  const I bits = normal.parts.template as<detail::Whole<R>>();
-  const I exponent = I::map(
-      [&](auto b) { return hn::ShiftRight<detail::kMantissaBits<R>>(hn::Sub(b, hn::Set(T{}, kRootBits))); }, bits);
+  constexpr auto kRootBits = kFloat ? static_cast<Whole<R>>(0x3F3504F3) : static_cast<Whole<R>>(0x3FE6A09E667F3BCDLL);
+  const I bits = x.parts.template as<Whole<R>>();
+  const I exponent =
+      I::map([&](auto b) { return hn::ShiftRight<kMantissaBits<R>>(hn::Sub(b, hn::Set(T{}, kRootBits))); }, bits);
   const I mantissa =
-      I::map([&](auto b, auto e) { return hn::Sub(b, hn::ShiftLeft<detail::kMantissaBits<R>>(e)); }, bits, exponent);
+      I::map([&](auto b, auto e) { return hn::Sub(b, hn::ShiftLeft<kMantissaBits<R>>(e)); }, bits, exponent);
   const V m(mantissa.template as<R>());
-  const V e = detail::from_whole<R>(exponent) - select(tiny, V(kFloat ? 25 : 54), V(0));
+  const V e = from_whole<R>(exponent) + more;
   const V f = m - V(1);
   const V s = f / (f + V(2));
   const V z = s * s;
   V r;
   if constexpr (kFloat) {
-    r = z * detail::polynomial(z, std::array<double, 4>{0.66666662693, 0.40000972152, 0.28498786688, 0.24279078841});
+    r = z * polynomial(z, std::array<double, 4>{0.66666662693, 0.40000972152, 0.28498786688, 0.24279078841});
   } else {
-    r = z * detail::polynomial(
+    r = z * polynomial(
                 z, std::array<double, 7>{6.666666666666735130e-01, 3.999999999940941908e-01, 2.857142874366239149e-01,
                                          2.222219843214978396e-01, 1.818357216161805012e-01, 1.531383769920937332e-01,
                                          1.479819860511658591e-01});
@@ -199,7 +198,19 @@ MOTE_INLINE Vector<R> log(const Vector<R>& x) {
   const V half_square = V(0.5) * f * f;
   const V high(kFloat ? 0.693359375 : 6.93147180369123816490e-01);
   const V low(kFloat ? -2.12194440e-4 : 1.90821492927058770002e-10);
-  const V result = fma(e, high, f - (half_square - (fma(s, half_square + r, e * low))));
+  return fma(e, high, f - (half_square - (fma(s, half_square + r, e * low))));
+}
+
+}  // namespace detail
+
+template <class R>
+MOTE_INLINE Vector<R> log(const Vector<R>& x) {
+  using V = Vector<R>;
+  constexpr bool kFloat = std::is_same_v<R, float>;
+  // a subnormal is scaled up first
+  const auto tiny = x < V(kFloat ? 0x1p-126 : 0x1p-1022);
+  const V normal = select(tiny, x * V(kFloat ? 0x1p25 : 0x1p54), x);
+  const V result = detail::log_of_normal(normal, select(tiny, V(kFloat ? -25 : -54), V(0)));
   const V finite = select(x < V(kInfinity), result, x);  // infinity and NaN stay what they are
   return select(V(0) < x, finite, select(x == V(0), V(-kInfinity), V(kNaN) + x));
 }
@@ -208,8 +219,8 @@ MOTE_INLINE Vector<R> log(const Vector<R>& x) {
 /// double.
 template <class R>
 MOTE_INLINE Vector<R> log_uniform(const Vector<R>& u) {
-#if HWY_TARGET <= HWY_AVX3
   if constexpr (std::is_same_v<R, float>) {
+#if HWY_TARGET <= HWY_AVX3
     return Vector<R>::map(
         [](auto x) {
           const auto e = decltype(x){_mm512_getexp_ps(x.raw)};
@@ -219,9 +230,20 @@ MOTE_INLINE Vector<R> log_uniform(const Vector<R>& u) {
                             detail::polynomial(s, detail::kLogFloat).parts.r[0]);
         },
         u);
-  }
+#else
+    using I = Registers<detail::Whole<R>>;
+    using T = typename I::Tag;
+    const I bits = u.parts.template as<detail::Whole<R>>();
+    const I exponent = I::map([](auto b) { return hn::ShiftRight<detail::kMantissaBits<R>>(b); }, bits);
+    const I mantissa =
+        I::map([](auto b) { return hn::OrAnd(hn::Set(T{}, 0x3F800000), b, hn::Set(T{}, 0x7FFFFF)); }, bits);
+    const Vector<R> s = Vector<R>(mantissa.template as<R>()) - Vector<R>(1.5F);
+    return fma(detail::from_whole<R>(exponent) - Vector<R>(detail::kBias<R>), Vector<R>(std::numbers::ln2_v<float>),
+               detail::polynomial(s, detail::kLogFloat));
 #endif
-  return log(u);
+  } else {
+    return detail::log_of_normal(u, Vector<R>(0));
+  }
 }
 
 namespace detail {
