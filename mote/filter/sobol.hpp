@@ -43,25 +43,40 @@ class Sobol {
   std::vector<std::array<std::uint32_t, 32>> directions_;
 };
 
-/// The first N points of a Sobol' sequence under Owen's nested uniform scrambling: each digit is flipped or not by a
-/// coin that belongs to the digits before it, so every point is uniform and any two keep their common leading digits.
+/// The first N points of a Sobol' sequence under Matousek's random linear scrambling and a random shift: every point is
+/// uniform, and any two keep their common leading digits.
 ///
-/// The coins of a tree of six digits are the bits of one hashed word; the digits beyond those that tell N points apart
-/// are random. Everything follows from the seed, step and stream of the draws.
+///   scrambled digits = L digits + shift,  mod 2;   L lower triangular, ones on the diagonal, fair coins below;
+///   shift fair coins.  L is applied to the direction numbers, once a step
+///
+/// Means over the points have the variance that Owen's nested scrambling gives them. Everything follows from the seed,
+/// step and stream of the draws.
 ///
 /// shape   N <= 2^30; a coordinate is 64 digits of a number in [0, 1)
-/// cost    a coordinate: log2(N) / 6 + 1 hashes
-/// source  Owen 1995; by hashing as Laine & Karras 2011 and Burley 2020, but with an independent coin for each node
+/// cost    a step: some 60 words a coordinate for N = 1000; a coordinate of a point: one XOR for each bit set in it
+/// source  Matousek 1998; Owen 2003, "Variance with alternative scramblings of digital nets"
 class ScrambledPoints {
  public:
-  ScrambledPoints(const Sobol& sobol, std::size_t points, const Draws& draws);
+  ScrambledPoints(const Sobol& sobol, std::size_t points, const Draws& draws) { scramble(sobol, points, draws); }
 
-  std::uint64_t bits(std::size_t point, std::size_t dimension) const;
+  /// Becomes those of other draws.
+  void scramble(const Sobol& sobol, std::size_t points, const Draws& draws);
+
+  std::size_t dimensions() const { return digits_.size(); }
+  /// The digits of a coordinate, the most significant bit first.
+  std::uint64_t bits(std::size_t point, std::size_t dimension) const {
+    const Digits& digits = digits_[dimension];
+    std::uint64_t sum = digits.shift;
+    for (; point != 0; point &= point - 1) sum ^= digits.direction[static_cast<std::size_t>(std::countr_zero(point))];
+    return sum;
+  }
 
  private:
-  const Sobol* sobol_;
-  unsigned trees_;  // of six digits each
-  std::vector<std::uint64_t> keys_;
+  struct Digits {
+    std::uint64_t shift;
+    std::array<std::uint64_t, 30> direction;
+  };
+  std::vector<Digits> digits_;  // by coordinate
 };
 
 /// One point as the draws of a particle: its coordinates in order.

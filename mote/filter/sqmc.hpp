@@ -12,21 +12,11 @@
 
 namespace mote {
 
-/// Coordinates that a model's step takes of a point: the numbers it draws, at t = 0 or later.
-template <Model M>
-std::size_t point_dimensions(const M& model) {
-  StillDraw<double> prior;
-  const auto x = model.template initial<double>(prior);
-  StillDraw<double> moved;
-  model.template next<double>(1, x, moved);
-  return std::max(prior.taken(), moved.taken());
-}
-
 /// SQMC: N evenly spread points a step; the first coordinate of each chooses a parent, the others move it.
 ///
-///   points ((n + d_n) / N, u^n), n = 0..N-1:  d_n uniform in (0, 1),  u^n scrambled Sobol' points
+///   points ((n + u) / N, u^n), n = 0..N-1:  u uniform in (0, 1),  u^n scrambled Sobol' points
 ///   parents in the order of Hilbert's curve (of value in one dimension);  a^n = the first whose cumulative weight
-///   passes (n + d_n) / N;   x^n ~ g(. | x^{a^n}_{t-1}, y) by the coordinates of u^n
+///   passes (n + u) / N;   x^n ~ g(. | x^{a^n}_{t-1}, y) by the coordinates of u^n
 ///   w^n = p(y | x^n) p(x^n | x^{a^n}) / (N g(x^n | x^{a^n}, y));   evidence = sum w^n
 ///
 /// Parents are chosen when particles move, in predict(), too, from the weights of the step before.
@@ -99,14 +89,15 @@ class QuasiFilter final : public Filter {
     const WeightScan scan(ordered_weights_);
     WeightScan::Walk walk(scan);
     const double interval = scan.total() / static_cast<double>(cloud_.size());
+    const double offset = draws(t).uniform(Purpose::kSelect);
     auto parent = blank_state<R>(model_);
-    draws(t).for_each(Purpose::kSelect, 0, cloud_.size(), [&](std::size_t n, auto& jitter) {
-      before_.read(placed_[walk.find((static_cast<double>(n) + jitter.uniform()) * interval)].index, parent);
+    for (std::size_t n = 0; n < cloud_.size(); ++n) {
+      before_.read(placed_[walk.find((static_cast<double>(n) + offset) * interval)].index, parent);
       PointDraw<R> draw(points, n);
       const auto x = proposal.template propose<R>(model_, t, parent, y, draw);
       cloud_.log_weights[n] += log_importance<R>(model_, proposal, t, x, parent, y);
       cloud_.x.write(n, x);
-    });
+    }
   }
 
   /// Makes the points as many-dimensional as the step wants: proposals may draw more numbers than the model.

@@ -1,7 +1,10 @@
 #pragma once
 /// Draws without chance: every number at its median.
 
+#include <algorithm>
 #include <cstddef>
+
+#include "mote/model/model.hpp"
 
 namespace mote {
 
@@ -20,5 +23,15 @@ struct StillDraw {
   }
   std::size_t taken() const { return normals + uniforms; }
 };
+
+/// Coordinates that a model's step takes of a point: the numbers it draws, at t = 0 or later.
+template <Model M>
+std::size_t point_dimensions(const M& model) {
+  StillDraw<double> prior;
+  const auto x = model.template initial<double>(prior);
+  StillDraw<double> moved;
+  model.template next<double>(1, x, moved);
+  return std::max(prior.taken(), moved.taken());
+}
 
 }  // namespace mote

@@ -8,6 +8,8 @@
 #include "mote/base/refusal.hpp"
 #include "mote/engine/plan.hpp"
 #include "mote/filter/filter.hpp"
+#include "mote/filter/sobol.hpp"
+#include "mote/filter/still.hpp"
 
 namespace mote {
 
@@ -43,11 +45,23 @@ inline void check_density(Density density, const Plan& plan, const std::string& 
                                            "auxiliary, whose weights (23) need no sum, or --proposal prior.");
 }
 
+/// Refuses quasi-random points for a model that draws more numbers a step than they have coordinates.
+template <Model M>
+void check_points(const M& model, const Plan& plan, const std::string& where) {
+  if (plan.filter == FilterKind::kSqmc && point_dimensions(model) > Sobol::kMostDimensions)
+    throw Refusal(ExitCode::kWrongUse,
+                  {where, "--filter sqmc",
+                   "a model that draws at most " + std::to_string(Sobol::kMostDimensions) + " numbers a step",
+                   std::to_string(point_dimensions(model)), "Pass --filter sisr."});
+}
+
 /// make(std::type_identity<G>) for the proposal G of the model that the plan names.
 ///
-/// error   Refusal (kWrongUse) when the model has no proposal of that name, or its weights do not exist
+/// error   Refusal (kWrongUse) when the model has no proposal of that name, or its weights do not exist; when it draws
+///         more numbers a step than quasi-random points have coordinates
 template <Model M, class Make>
 std::unique_ptr<Filter> with_proposal(const M& model, const Plan& plan, const std::string& where, const Make& make) {
+  check_points(model, plan, where);
   std::unique_ptr<Filter> filter;
   const auto offer = [&]<class G>(std::type_identity<G> proposal) {
     if (plan.proposal != G::kName || filter) return;

@@ -62,16 +62,6 @@ std::unique_ptr<Filter> gaussian(const M& model, const Plan& plan, const std::st
   }
 }
 
-/// Refuses quasi-random points for a model that draws more numbers a step than they have coordinates.
-template <Model M>
-void check_points(const M& model, const Plan& plan, const std::string& where) {
-  if (plan.filter == FilterKind::kSqmc && point_dimensions(model) > Sobol::kMostDimensions)
-    throw Refusal(ExitCode::kWrongUse,
-                  {where, "--filter sqmc",
-                   "a model that draws at most " + std::to_string(Sobol::kMostDimensions) + " numbers a step",
-                   std::to_string(point_dimensions(model)), "Pass --filter sisr."});
-}
-
 }  // namespace reference
 
 /// A filter of the reference engine for a model and a plan that has been checked.
@@ -82,7 +72,6 @@ void check_points(const M& model, const Plan& plan, const std::string& where) {
 template <Model M>
 std::unique_ptr<Filter> make_reference_filter(const M& model, const Plan& plan, const std::string& where) {
   if (is_gaussian(plan.filter)) return reference::gaussian(model, plan, where);
-  reference::check_points(model, plan, where);
   return with_proposal(model, plan, where, [&]<class G>(std::type_identity<G>) {
     return plan.precision == Precision::kFloat ? reference::make<float, G>(model, plan)
                                                : reference::make<double, G>(model, plan);

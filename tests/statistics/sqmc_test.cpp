@@ -38,9 +38,8 @@ Maker twin(const M& model) {
 //          log evidence is a tenth of SISR's in two, and less than SISR's in four
 // referee  SISR with systematic resampling, unbiased like SQMC (evidence_test.cpp)
 // design   24 steps, N = 1000; the plane with 200 runs, bearings with 400
-// risk     1e-6 each: the log of the ratio has a standard error of 0.14 and 0.10; measured 0.06 and 0.47. The twins
-// (SISR
-//          with other seeds) must be caught
+// risk     1e-6 each: the log of the ratio has a standard error of 0.14 and 0.10; measured 0.055 and 0.46. The twins
+//          (SISR with other seeds) must be caught
 TEST(Sqmc, GainsInSeveralDimensions) {
   EXPECT_LT(variance_ratio("plane", plane(), sqmc(plane()), 200), 0.17);
   EXPECT_GT(variance_ratio("plane", plane(), twin(plane()), 200), 0.17) << "the twin";
