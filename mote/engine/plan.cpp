@@ -155,6 +155,8 @@ double bytes_needed(const Plan& plan, std::size_t dimensions) {
     return n * (2 * state + 3 * number + (lists ? 40 : 0)) + 1e6;
   }
   if (plan.filter == FilterKind::kSisr || plan.filter == FilterKind::kDistributed) return n * (state + 48);
+  if (plan.filter == FilterKind::kSqmc && engine_of(plan) == Engine::kSimd)
+    return n * (2 * state + 3 * (plan.precision == Precision::kFloat ? 4 : 8) + 28) + 1e6;
   if (plan.filter == FilterKind::kSqmc) return n * (2 * state + 48);
   const auto draws = static_cast<double>(plan.chain.draws == 0 ? plan.particles : plan.chain.draws);
   // `auto` may ask for as many as Q in each chain
@@ -167,7 +169,7 @@ double bytes_needed(const Plan& plan, std::size_t dimensions) {
 
 void check(const Plan& plan, const std::string& where) {
   require(plan.engine != Engine::kSimd || simd_has(plan), where, "--engine simd",
-          "--filter sisr, or imh or auxiliary with --proposal prior, without --burn-in auto and lookahead",
+          "--filter sisr or sqmc, or imh or auxiliary with --proposal prior, without --burn-in auto and lookahead",
           fmt::format("--filter {} --proposal {}", name_of(plan.filter), plan.proposal),
           "Pass --engine reference, or leave it out.");
   require(

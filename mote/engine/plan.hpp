@@ -50,10 +50,10 @@ struct Plan {
   Team* team = nullptr;      ///< whom the particles are shared with, by kMpi; results do not depend on it, either
 };
 
-/// Whether the SIMD engine has the plan's filter: SISR, and chains whose proposal is the prior, with a fixed burn-in
-/// and parents of equal weight.
+/// Whether the SIMD engine has the plan's filter: SISR, SQMC, and chains whose proposal is the prior, with a fixed
+/// burn-in and parents of equal weight.
 inline bool simd_has(const Plan& plan) {
-  if (plan.filter == FilterKind::kSisr) return true;
+  if (plan.filter == FilterKind::kSisr || plan.filter == FilterKind::kSqmc) return true;
   const bool chains = plan.filter == FilterKind::kAuxiliary || plan.filter == FilterKind::kImh;
   return chains && plan.proposal == Prior::kName && plan.chain.burn_in &&
          plan.chain.parent_weights == ParentWeights::kUniform;
@@ -65,7 +65,7 @@ inline bool team_has(const Plan& plan) {
   if (plan.filter == FilterKind::kSisr)
     return plan.selection.scheme == &systematic_scheme() && plan.selection.exponent == 1;
   if (plan.filter == FilterKind::kDistributed) return !plan.groups.joint();
-  return simd_has(plan);
+  return plan.filter != FilterKind::kSqmc && simd_has(plan);
 }
 
 /// Whether the pipeline engine has the plan's filter.

@@ -139,9 +139,12 @@ TEST(Plan, BytesCoverTheArraysThatAFilterHolds) {
   EXPECT_GE(bytes_needed(plan, 4), 1e6 * (4 * 8 + 4) + 1008000.0 * (4 * 8 + 16));
 }
 
-TEST(Plan, SimdHasSisrAndChainsThatProposeFromThePrior) {
+TEST(Plan, SimdHasSisrSqmcAndChainsThatProposeFromThePrior) {
   Plan plan;
   EXPECT_TRUE(simd_has(plan));
+  plan.filter = FilterKind::kSqmc;
+  EXPECT_TRUE(simd_has(plan));
+  EXPECT_FALSE(team_has(plan)) << "its order is of all particles";
   plan.filter = FilterKind::kDistributed;
   EXPECT_FALSE(simd_has(plan));
   EXPECT_EQ(engine_of(plan), Engine::kReference);

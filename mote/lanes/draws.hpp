@@ -266,11 +266,15 @@ template <class R>
 class VectorDraw {
  public:
   explicit MOTE_INLINE VectorDraw(const Address& address) : generators_(address) {}
-  MOTE_INLINE Vector<R> normal() {
+  using Bits = std::conditional_t<std::is_same_v<R, float>, std::uint32_t, std::uint64_t>;
+
+  MOTE_INLINE Vector<R> normal() { return normal_of(next_bits()); }
+  /// The normal numbers of given bits: normal_from_bits() but for the table's error.
+  MOTE_INLINE Vector<R> normal_of(const Registers<Bits>& bits) const {
     if constexpr (std::is_same_v<R, float>) {
-      return normal_float();
+      return normal_float(bits);
     } else {
-      return normal_double();
+      return normal_double(bits);
     }
   }
 
@@ -280,10 +284,10 @@ class VectorDraw {
   /// A normal number unless it is far in the tail, and then `least` is left below kTail: see make_ready().
   MOTE_INLINE Vector<R> near_normal(Vector<R>& least) requires kHasNear {
     if constexpr (std::is_same_v<R, float>) {
-      const auto bits = halves(generators_.next());
+      const auto bits = next_bits();
       return signed_as(polynomials_(magnitude(bits), least), bits);
     } else {
-      const auto bits = generators_.next();
+      const auto bits = next_bits();
       const Registers<double> u = magnitude(bits);
       least = min(least, Vector<double>(u));
       return signed_as(polynomials_(u.template as<std::uint64_t>()), bits);
@@ -291,18 +295,18 @@ class VectorDraw {
   }
   static constexpr R kTail = std::is_same_v<R, float> ? R(0x1p15) : R(0x1p47);  ///< 2^-17 of all magnitudes
 
-  MOTE_INLINE Vector<R> uniform() {
+  MOTE_INLINE Vector<R> uniform() { return uniform_of(next_bits()); }
+  /// uniform_from_bits() of given bits.
+  static MOTE_INLINE Vector<R> uniform_of(const Registers<Bits>& bits) {
+    using Tag = typename Registers<Bits>::Tag;
     if constexpr (std::is_same_v<R, float>) {
-      using Tag = Registers<std::uint32_t>::Tag;
       // 1 + k 2^-23 by its bits, minus what centres it: exactly (k + 1/2) 2^-23
-      const auto one_to_two = Registers<std::uint32_t>::map(
-          [](auto x) { return hn::Or(hn::ShiftRight<9>(x), hn::Set(Tag{}, 0x3F800000U)); }, halves(generators_.next()));
+      const auto one_to_two =
+          Registers<Bits>::map([](auto x) { return hn::Or(hn::ShiftRight<9>(x), hn::Set(Tag{}, 0x3F800000U)); }, bits);
       return Vector<float>(one_to_two.template as<float>()) - Vector<float>(1.0F - 0x1p-24F);
     } else {
-      using Tag = Registers<std::uint64_t>::Tag;
-      const auto one_to_two = Registers<std::uint64_t>::map(
-          [](auto x) { return hn::Or(hn::ShiftRight<12>(x), hn::Set(Tag{}, 0x3FF0000000000000ULL)); },
-          generators_.next());
+      const auto one_to_two = Registers<Bits>::map(
+          [](auto x) { return hn::Or(hn::ShiftRight<12>(x), hn::Set(Tag{}, 0x3FF0000000000000ULL)); }, bits);
       return Vector<double>(one_to_two.template as<double>()) - Vector<double>(1.0 - 0x1p-53);
     }
   }
@@ -342,6 +346,15 @@ class VectorDraw {
 
  private:
   static constexpr int kXorOfAnd = 0x78;  // a ^ (b & c), as a truth table
+
+  /// The bits of the next draws.
+  MOTE_INLINE Registers<Bits> next_bits() {
+    if constexpr (std::is_same_v<R, float>) {
+      return halves(generators_.next());
+    } else {
+      return generators_.next();
+    }
+  }
 
   /// Low halves of the eight words, then their high halves: the order of the sixteen particles.
   static MOTE_INLINE Registers<std::uint32_t> halves(const Generators::Words& words) {
@@ -396,8 +409,7 @@ class VectorDraw {
 #endif
   }
 
-  MOTE_INLINE Vector<float> normal_float() {
-    const auto bits = halves(generators_.next());
+  MOTE_INLINE Vector<float> normal_float(const Registers<std::uint32_t>& bits) const {
     const Registers<float> u = magnitude(bits);
     Vector<float> z = polynomials_(u);
     const Mask<float> rare = Vector<float>(u) < Vector<float>(kTail);
@@ -405,8 +417,7 @@ class VectorDraw {
     return signed_as(z, bits);
   }
 
-  MOTE_INLINE Vector<double> normal_double() {
-    const auto bits = generators_.next();
+  MOTE_INLINE Vector<double> normal_double(const Registers<std::uint64_t>& bits) const {
     const Registers<double> u = magnitude(bits);
     Vector<double> z = polynomials_(u.template as<std::uint64_t>());
 #if HWY_TARGET <= HWY_AVX3

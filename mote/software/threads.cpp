@@ -49,18 +49,21 @@ struct Piece {
 /// elsewhere than where one has left off costs a fraction of a block. Helpers take from the back.
 class alignas(kApart) Pile {
  public:
-  void lay(std::size_t first, std::size_t last) { left_.store(packed({first, last}), std::memory_order_relaxed); }
+  void lay(std::size_t first, std::size_t last, std::size_t least) {
+    least_ = least;
+    left_.store(packed({first, last}), std::memory_order_relaxed);
+  }
   Piece front() {
-    return take([](const Piece& left) { return Piece{left.first, left.first + part(left, 3 * left.size() / 4)}; });
+    return take([this](const Piece& left) { return Piece{left.first, left.first + part(left, 3 * left.size() / 4)}; });
   }
   Piece back() {
-    return take([](const Piece& left) { return Piece{left.last - part(left, left.size() / 2), left.last}; });
+    return take([this](const Piece& left) { return Piece{left.last - part(left, left.size() / 2), left.last}; });
   }
 
  private:
   static std::uint64_t packed(const Piece& p) { return std::uint64_t{p.first} << 32U | p.last; }
-  static std::size_t part(const Piece& left, std::size_t wanted) {
-    return std::min(left.size(), std::max(kLeastPiece, wanted));
+  std::size_t part(const Piece& left, std::size_t wanted) const {
+    return std::min(left.size(), std::max(least_, wanted));
   }
 
   template <class Choose>
@@ -74,6 +77,7 @@ class alignas(kApart) Pile {
     }
   }
 
+  std::size_t least_ = 1;
   std::atomic<std::uint64_t> left_{0};
 };
 
@@ -108,7 +112,7 @@ class Crew::Workers {
     if (pays(task))
       share_out(task);
     else
-      task.call(task.work, 0, 0, task.blocks);
+      task.call(task.work, 0, 0, task.pieces);
     rests_since_ = Clock::now();
   }
 
@@ -126,13 +130,14 @@ class Crew::Workers {
   std::size_t called(const Task& task) const { return std::min(task.shares, seats_.size()); }
   /// After a pause the workers sleep, and one that is woken may be queued behind its caller.
   bool pays(const Task& task) const {
-    return task.blocks >= kWorthWaking * called(task) || Clock::now() - rests_since_ < kAwake;
+    return task.pieces * task.blocks_each >= kWorthWaking * called(task) || Clock::now() - rests_since_ < kAwake;
   }
 
   void share_out(const Task& task) {
     task_ = task;
     for (std::size_t k = 0; k < task.shares; ++k)
-      piles_[k].lay(task.blocks * k / task.shares, task.blocks * (k + 1) / task.shares);
+      piles_[k].lay(task.pieces * k / task.shares, task.pieces * (k + 1) / task.shares,
+                    std::max<std::size_t>(kLeastPiece / task.blocks_each, 1));
     for (std::size_t k = 1; k < called(task); ++k) call(seats_[k]);
     work(0);
     for (std::size_t k = 1; k < called(task); ++k) finish(seats_[k]);

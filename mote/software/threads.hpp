@@ -1,6 +1,7 @@
 #pragma once
 /// Threads that share a step's blocks, and stay ready between steps.
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 
@@ -28,6 +29,10 @@ class Crew {
 
   /// Shares that `blocks` blocks of work are cut into: fewer than K when a share would not pay for its start.
   std::size_t shares(std::size_t blocks) const;
+  /// Shares that `pieces` pieces are cut into, each as much work as `blocks_each` blocks.
+  std::size_t shares(std::size_t pieces, std::size_t blocks_each) const {
+    return std::clamp<std::size_t>(shares(pieces * blocks_each), 1, std::max<std::size_t>(pieces, 1));
+  }
 
   /// Calls work(desk, first, last) for ranges that make up [0, blocks), side by side; returns when all are done. Calls
   /// with the same desk, below shares(blocks), come one after the other.
@@ -36,16 +41,22 @@ class Crew {
   /// cost    one barrier; none for a single share, which runs in the caller; no allocation after the first call
   template <class Work>
   void run(std::size_t blocks, const Work& work) {
-    if (shares(blocks) == 1) return work(std::size_t{0}, std::size_t{0}, blocks);
+    run(blocks, 1, work);
+  }
+  /// The same for pieces that are as much work as `blocks_each` blocks each.
+  template <class Work>
+  void run(std::size_t pieces, std::size_t blocks_each, const Work& work) {
+    const std::size_t all = shares(pieces, blocks_each);
+    if (all == 1) return work(std::size_t{0}, std::size_t{0}, pieces);
     run_shares(
-        {blocks, shares(blocks), &work, [](const void* what, std::size_t desk, std::size_t first, std::size_t last) {
+        {pieces, blocks_each, all, &work, [](const void* what, std::size_t desk, std::size_t first, std::size_t last) {
            (*static_cast<const Work*>(what))(desk, first, last);
          }});
   }
 
  private:
   struct Task {
-    std::size_t blocks = 0, shares = 0;
+    std::size_t pieces = 0, blocks_each = 1, shares = 0;
     const void* work = nullptr;
     void (*call)(const void* work, std::size_t desk, std::size_t first, std::size_t last) = nullptr;
   };

@@ -59,12 +59,17 @@ class ContenderRacer final : public Racer {
 
 /// Bytes that a particle-step moves at least, by the passes over arrays of N numbers of `number` bytes.
 ///
-///   simd        weights and D components of the parents are read, those of the children written: (2 D + 2) number
+///   simd        weights and D components of the parents are read, those of the children written: (2 D + 2) number.
+///               Chains: parents read, proposals written and read, the kept written, 4 D; log weights and log uniform
+///               numbers written and read, 4. Points: D components read twice and written; weights read and written,
+///               their units likewise, 4 number; 80 bytes of the sort, its sums and the parents
 ///   reference   D (propose 2, weigh 1, moments 2, gather 4) numbers; D (weights for moments 16, ancestors 4) bytes;
 ///               log weights and weights 96, ancestors 4 bytes
-double bytes_moved(Engine engine, double dimensions, double number) {
-  if (engine == Engine::kSimd) return (2 * dimensions + 2) * number;
-  return dimensions * (9 * number + 20) + 100;
+double bytes_moved(const Plan& plan, double dimensions, double number) {
+  if (engine_of(plan) != Engine::kSimd) return dimensions * (9 * number + 20) + 100;
+  if (plan.filter == FilterKind::kSisr) return (2 * dimensions + 2) * number;
+  if (plan.filter == FilterKind::kSqmc) return (3 * dimensions + 4) * number + 80;
+  return (4 * dimensions + 4) * number;
 }
 
 }  // namespace
@@ -91,7 +96,7 @@ Entrant filter_entrant(const std::string& name, std::shared_ptr<const Course> co
   const std::string meaning = fmt::format("mote's {} engine, {}, {} thread{}{}", name_of(engine_of(plan)),
                                           is_float ? "float" : "double", plan.threads, plan.threads == 1 ? "" : "s",
                                           plan.estimates == Estimates::kMeans ? ", no standard deviations" : "");
-  return {name, meaning, bytes_moved(engine_of(plan), dimensions, is_float ? 4 : 8), "",
+  return {name, meaning, bytes_moved(plan, dimensions, is_float ? 4 : 8), "",
           [course = std::move(course), plan] { return std::make_unique<FilterRacer>(course, plan); }};
 }
 

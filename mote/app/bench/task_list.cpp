@@ -6,6 +6,7 @@ const std::vector<TaskEntry>& tasks() {
   static const std::vector<TaskEntry> all{
       {"ungm-float", "growth model, bootstrap filter, 100 steps, float; one thread", growth_float_task},
       {"ungm-double", "growth model, bootstrap filter, 100 steps, double; one thread", growth_double_task},
+      {"filters", "growth model, filters side by side, 100 steps, float; one thread", filters_task},
       {"bearings", "bearings-only tracking, 4 states, bootstrap filter, 30 steps; one thread", bearings_task},
       {"doa", "direction of arrival, 3 states, bootstrap filter, 30 steps; one thread", doa_task},
       {"resample", "ancestors from weights, and their states copied; one thread", resample_task},

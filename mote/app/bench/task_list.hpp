@@ -7,6 +7,7 @@ namespace mote::bench {
 
 Task growth_float_task(const TaskEntry& entry, std::size_t threads);
 Task growth_double_task(const TaskEntry& entry, std::size_t threads);
+Task filters_task(const TaskEntry& entry, std::size_t threads);
 Task bearings_task(const TaskEntry& entry, std::size_t threads);
 Task doa_task(const TaskEntry& entry, std::size_t threads);
 Task resample_task(const TaskEntry& entry, std::size_t threads);

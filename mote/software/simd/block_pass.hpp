@@ -9,6 +9,7 @@
 #include "mote/filter/weigh.hpp"
 #include "mote/lanes/functions.hpp"
 #include "mote/lanes/ready_draws.hpp"
+#include "mote/software/simd/points.hpp"
 #include "mote/software/simd/weighted_sums.hpp"
 
 namespace mote {
@@ -106,6 +107,7 @@ class BlockPass {
     std::optional<lanes::VectorDraw<R>> source;           // that make them
     std::optional<typename BlocksOf<M, V>::Type> blocks;  // of a model that moves blocks
     AlignedVector<R> likelihoods;                         // log p(y | x) of a block that it has weighed
+    std::size_t next = 0;                                 // particle to make draws for
 
     explicit Desk(std::size_t dimensions)
         : parents(dimensions),
@@ -122,10 +124,15 @@ class BlockPass {
     [[gnu::noinline]] void start(const Address& address, const lanes::DrawPattern& pattern) {
       numbers.resize(std::max(numbers.size(), pattern.normal.size() * kBlock));
       source.emplace(address);
+      next = address.block * kBlock;
     }
     /// Makes the draws of the next `count` particles.
-    void make_ready(const lanes::DrawPattern& pattern, std::size_t count) {
-      lanes::make_ready(*source, pattern, count, numbers.data());
+    void make_ready(const lanes::DrawPattern& pattern, std::size_t count, const VectorPoints<R>* points) {
+      if (points != nullptr)
+        points->make_ready(*source, pattern, next, count, numbers.data());
+      else
+        lanes::make_ready(*source, pattern, count, numbers.data());
+      next += count;
     }
   };
 
@@ -185,6 +192,15 @@ class BlockPass {
     if (!same_shape) note_pattern<Source::kProposal>(like);
   }
 
+  /// The draws of what follows are those of points, no longer when null.
+  void draw_from(const VectorPoints<R>* points) { points_ = points; }
+  /// The most numbers that a particle takes in a step.
+  std::size_t draws_taken() const {
+    std::size_t most = 0;
+    for (const lanes::DrawPattern& pattern : patterns_) most = std::max(most, pattern.normal.size());
+    return most;
+  }
+
   /// Starts the draws of a block: before block(), and best while something else is waited for.
   template <Source kSource>
   void start(Desk& desk, const Address& address) {
@@ -212,7 +228,7 @@ class BlockPass {
     V most(kNothing);
     for (std::size_t start = 0; start < n; start += chunk) {
       const std::size_t end = std::min(start + chunk, n);
-      desk.make_ready(pattern, end - start);
+      desk.make_ready(pattern, end - start, points_);
       if constexpr (kMovesBlocks) {
         move_block<kSource>(desk, t, start, end - start);
         if constexpr (kWeighs) weigh_block(desk, t, start, end - start);
@@ -421,6 +437,7 @@ class BlockPass {
   Totals totals_;
   std::vector<Row<V>> rows_;
   std::array<lanes::DrawPattern, 4> patterns_;  // by source
+  const VectorPoints<R>* points_ = nullptr;
 };
 
 }  // namespace HWY_NAMESPACE

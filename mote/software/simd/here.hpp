@@ -10,6 +10,7 @@
 #include "mote/software/simd/importance.hpp"
 #include "mote/software/simd/isa.hpp"
 #include "mote/software/simd/metropolis.hpp"
+#include "mote/software/simd/quasi.hpp"
 
 namespace mote {
 inline namespace HWY_NAMESPACE {
@@ -21,6 +22,9 @@ inline constexpr Isa kIsaHere = HWY_TARGET <= HWY_AVX3   ? Isa::kAvx512
 
 template <class R, class G, Model M>
 std::unique_ptr<Filter> vector_filter(const M& model, const Plan& plan) {
+  if (plan.filter == FilterKind::kSqmc)
+    return std::make_unique<VectorQuasiFilter<M, R, G>>(model, plan.particles, plan.seed, plan.on_collapse,
+                                                        plan.threads);
   if constexpr (std::is_same_v<G, Prior>)
     if (plan.filter != FilterKind::kSisr)
       return std::make_unique<VectorMetropolisFilter<M, R>>(model, plan.particles, plan.seed, plan.chain,

@@ -2,127 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include "mote/engine/checkpoint_laws.hpp"
 #include "mote/engine/thread_teams.hpp"
 #include "mote/filter/adaptive.hpp"
-#include "mote/filter/sisr.hpp"
 #include "mote/model/bearings.hpp"
 #include "mote/model/doa.hpp"
-#include "mote/model/linear_gaussian.hpp"
 #include "mote/model/ungm.hpp"
-#include "mote/software/engines.hpp"
-#include "mote/software/simd/here.hpp"
+#include "mote/software/simd/both_engines.hpp"
 
 namespace mote {
 namespace {
-
-/// Twelve steps of a recording of the model, with a gap before the fifth and two rows in the eighth.
-template <class M>
-Recording recording_of(const M& model) {
-  Recording recording;
-  auto truth = Draws{3, 0}.block(Purpose::kTruth);
-  auto draw = truth.particle(0);
-  auto x = model.template initial<double>(draw);
-  for (Step t = 1; t <= 12; ++t) {
-    x = model.template next<double>(t, x, draw);
-    if (t == 4) continue;
-    ObservedStep step{t, {model.template observe<double>(t, x, blank_row(model), draw)}};
-    if (t == 8) step.rows.push_back(model.template observe<double>(t, x, blank_row(model), draw));
-    recording.steps.push_back(std::move(step));
-  }
-  return recording;
-}
-
-template <class M>
-std::vector<EstimateRow> rows_of(const M& model, Filter& filter, const Plan& plan, const Recording& recording) {
-  RunRequest request;
-  request.states = model.states();
-  return run(filter, plan, recording, request).rows;
-}
-
-/// The worst difference between two runs: of means in standard deviations, of these, of evidence in nat, of the ESS.
-double distance(const std::vector<EstimateRow>& a, const std::vector<EstimateRow>& b) {
-  double worst = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    for (std::size_t d = 0; d < a[k].states.size(); ++d) {
-      const double scale = a[k].states[d].sd + 1e-9;
-      worst = std::max({worst, std::abs(a[k].states[d].mean - b[k].states[d].mean) / scale,
-                        std::abs(a[k].states[d].sd - b[k].states[d].sd) / scale});
-    }
-    worst = std::max(worst, std::abs(a[k].report.log_evidence - b[k].report.log_evidence));
-    worst = std::max(worst, std::abs(a[k].report.ess / b[k].report.ess - 1));
-  }
-  return worst;
-}
-
-Plan plan_of(std::size_t particles = 1501, std::uint64_t seed = 5, Precision precision = Precision::kDouble) {
-  Plan plan;
-  plan.particles = particles;
-  plan.seed = seed;
-  plan.precision = precision;
-  return plan;
-}
-Plan float_plan(std::size_t particles) { return plan_of(particles, 5, Precision::kFloat); }
-
-/// A random walk whose likelihood is zero at the third step, and no number where the state is negative.
-struct Doomed {
-  template <class S>
-  using State = std::array<S, 1>;
-  bool zero_at_three = true;
-
-  std::vector<Quantity> states() const { return {{"x", ""}}; }
-  std::vector<Column> columns() const { return {{"y", ""}}; }
-  template <class S, class D>
-  State<S> initial(D& draw) const {
-    return {draw.normal()};
-  }
-  template <class S, class D>
-  State<S> next(Step, const State<S>& before, D& draw) const {
-    return {before[0] + draw.normal()};
-  }
-  template <class S>
-  S log_likelihood(Step t, const State<S>& x, const Row<S>& y) const {
-    using namespace numbers;
-    if (zero_at_three && t == 3) return S(-kInfinity);
-    return normal_log_density(y[0] - x[0], 1.0) + select(less(x[0], S(-1)), S(kNaN), S(0));
-  }
-  template <class S, class D>
-  Row<S> observe(Step, const State<S>& x, const Row<S>&, D& draw) const {
-    return Row<S>::of({x[0] + draw.normal()});
-  }
-};
-
-/// A filter on the vectors that this file is compiled for.
-template <class M>
-std::unique_ptr<Filter> vectors(const M& model, const Plan& plan) {
-  return simd_filter<M, kIsaHere>(model, plan, "test");
-}
-template <class R>
-std::unique_ptr<Filter> doomed_vectors(const Doomed& model, const Plan& plan) {
-  return std::make_unique<VectorImportanceFilter<Doomed, R>>(
-      model, plan.particles, plan.seed, plan.selection, plan.on_collapse, plan.threads, Estimates::kSpreads, plan.team);
-}
-std::unique_ptr<Filter> vectors(const Doomed& model, const Plan& plan) {
-  return plan.precision == Precision::kFloat ? doomed_vectors<float>(model, plan) : doomed_vectors<double>(model, plan);
-}
-
-template <class M>
-std::unique_ptr<Filter> reference(const M& model, const Plan& plan) {
-  return reference_filter(model, plan, "test");
-}
-std::unique_ptr<Filter> reference(const Doomed& model, const Plan& plan) {
-  if (plan.precision == Precision::kFloat)
-    return make_sisr<float>(model, plan.particles, plan.seed, plan.selection, plan.on_collapse);
-  return make_sisr(model, plan.particles, plan.seed, plan.selection, plan.on_collapse);
-}
-
-/// Both engines along one recording, from the same seed.
-template <class M>
-double distance_of_engines(const M& model, const Plan& plan) {
-  const Recording recording = recording_of(model);
-  return distance(rows_of(model, *reference(model, plan), plan, recording),
-                  rows_of(model, *vectors(model, plan), plan, recording));
-}
 
 // claim    the SIMD engine is the reference engine, step by step from the same draws
 // referee  the reference engine
@@ -132,20 +20,6 @@ double distance_of_engines(const M& model, const Plan& plan) {
 //          the engines agree in law only: the chance of that grows like N^2, so N is small
 // risk     none: fixed seeds. The twin (another seed) must be caught
 constexpr double kSame = 0.02;
-
-LinearGaussian sixteen_states() {
-  LinearGaussianParameters p;
-  p.F = 0.9 * Eigen::MatrixXd::Identity(16, 16);
-  p.F(0, 15) = 0.3;
-  p.Q = 0.5 * Eigen::MatrixXd::Identity(16, 16);
-  p.H = Eigen::MatrixXd::Identity(2, 16);
-  p.R = Eigen::MatrixXd::Identity(2, 2);
-  p.mean = Eigen::VectorXd::Zero(16);
-  p.covariance = Eigen::MatrixXd::Identity(16, 16);
-  for (int i = 0; i < 16; ++i) p.state_names.push_back("x" + std::to_string(i));
-  p.observation_names = {"y1", "y2"};
-  return LinearGaussian(p);
-}
 
 void expect_the_same_filter(const Plan& plan) {
   EXPECT_LT((distance_of_engines(Ungm<1>{}, plan)), kSame);
@@ -186,7 +60,7 @@ double distance_of_adaptive_engines(const SelectionOptions& selection, std::size
   plan.threads = threads;
   const Recording recording = recording_of(model);
   const AdaptiveOptions options{.most = plan.particles, .error = 0.15};
-  AdaptiveFilter referee(reference(model, plan), options);
+  AdaptiveFilter referee(by_reference(model, plan), options);
   AdaptiveFilter vector(vectors(model, plan), options);
   const auto rows = rows_of(model, vector, plan, recording);
   counts = vector.counts();
@@ -229,7 +103,7 @@ TEST(VectorImportanceFilter, RecoversFromACollapseAsTheReferenceFilterDoes) {
       const auto filter = vectors(model, plan);
       auto rows = rows_of(model, *filter, plan, recording);
       EXPECT_TRUE(rows[2].report.collapsed);
-      auto expected = rows_of(model, *reference(model, plan), plan, recording);
+      auto expected = rows_of(model, *by_reference(model, plan), plan, recording);
       EXPECT_EQ(expected[2].report.log_evidence, rows[2].report.log_evidence);
       expected[2].report.log_evidence = rows[2].report.log_evidence = 0;
       EXPECT_LT(distance(expected, rows), kSame);
@@ -251,22 +125,6 @@ TEST(VectorImportanceFilter, ThreadsChangeNoBit) {
     plan.threads = threads;
     EXPECT_EQ(distance(one, rows_of(model, *vectors(model, plan), plan, recording)), 0.0) << threads;
   }
-}
-
-/// What differs when a run is broken off and resumed; its filters alternate between one thread and two.
-template <class M>
-std::string broken_promise(const M& model, Plan plan) {
-  Recording recording = recording_of(model);
-  recording.steps[5].rows.clear();
-  RunRequest request;
-  request.states = model.states();
-  std::size_t made = 0;
-  return laws::broken_promise(
-      [&] {
-        plan.threads = 1 + made++ % 2;
-        return vectors(model, plan);
-      },
-      plan, recording, request);
 }
 
 TEST(VectorImportanceFilter, IsResumedBitByBit) {

@@ -36,9 +36,11 @@ namespace mote {
 namespace {
 
 /// Allocations of twenty steps, after as many to get used to them.
-std::size_t allocations_of(const SelectionOptions& selection, std::size_t particles = 10000, std::size_t threads = 1) {
+std::size_t allocations_of(const SelectionOptions& selection, std::size_t particles = 10000, std::size_t threads = 1,
+                           FilterKind filter = FilterKind::kSisr) {
   const Bearings model;
   Plan plan;
+  plan.filter = filter;
   plan.particles = particles;
   plan.precision = Precision::kFloat;
   plan.selection = selection;
@@ -59,6 +61,11 @@ std::size_t allocations_of(const SelectionOptions& selection, std::size_t partic
 TEST(Stream, AllocatesNothingWhileItRuns) { EXPECT_EQ(allocations_of({}), 0U); }
 
 TEST(Stream, AllocatesNothingOnSeveralThreads) { EXPECT_EQ(allocations_of({}, 100000, 3), 0U); }
+
+TEST(Stream, AllocatesNothingWithPoints) {
+  EXPECT_EQ(allocations_of({}, 10000, 1, FilterKind::kSqmc), 0U);
+  EXPECT_EQ(allocations_of({}, 100000, 3, FilterKind::kSqmc), 0U);
+}
 
 TEST(Stream, TwinAResamplerThatListsAncestorsIsCaught) { EXPECT_GT(allocations_of({find_scheme("alias"), 1, 1}), 0U); }
 
