@@ -1,6 +1,7 @@
 #include "mote/hardware/machine/cost.hpp"
 
 #include <algorithm>
+#include <future>
 #include <utility>
 
 #include "mote/base/refusal.hpp"
@@ -61,15 +62,19 @@ std::pair<Area, SlowestPath> synthesised(const std::string& folder, const std::s
   return {area, slowest_path(read_text(netlist), top)};
 }
 
+/// Area, clock and, beside them, the time by sta.
 template <class Design>
-Cost xc7_cost(const Design& design, const std::string& folder, const Activity& activity) {
+Cost xc7_cost(const Design& design, const std::string& folder, const Activity& activity, bool with_sta) {
+  const auto newer = with_sta ? NewerYosys::found() : std::nullopt;
+  std::future<double> sta;
+  if (newer) sta = std::async(std::launch::async, [&] { return yosys_sta(design, *newer); });
   const auto [area, path] = synthesised(folder, top_of(design));
   Cost cost{"XC7A100T-1 after synthesis; slowest path " + short_number(path.ns) + " ns of cells (" + path.cells + ")",
             area.lut, area.ff, area.dsp, area.bram18};
   cost.fmax_mhz = clock_of_path(path.ns);
-  if (const auto newer = NewerYosys::found())
-    cost.sta_ns = yosys_sta(design, *newer);
-  else
+  if (newer)
+    cost.sta_ns = sta.get();
+  else if (with_sta)
     cost.no_sta = std::string("Debian's Yosys has no sta: ") + kInstallNewerYosys;
   cost.power_mw = power_mw(area, *cost.fmax_mhz, activity);
   return cost;
@@ -175,11 +180,16 @@ Cost cost_of_parts(const Machine& machine, const PartCost& propose, const PartCo
   return cost;
 }
 
-Cost cost_of(const Machine& machine, Family family, const Activity& activity) {
+std::optional<double> sta_ns(const Machine& machine) {
+  const auto newer = NewerYosys::found();
+  return newer ? std::optional(yosys_sta(machine, *newer)) : std::nullopt;
+}
+
+Cost cost_of(const Machine& machine, Family family, const Activity& activity, bool with_sta) {
   const ScratchFolder scratch;
   const std::string folder = scratch.path().string() + "/";
   write_design(machine, folder, folder);
-  Cost cost = family == Family::kXc7     ? xc7_cost(machine, folder, activity)
+  Cost cost = family == Family::kXc7     ? xc7_cost(machine, folder, activity, with_sta)
               : family == Family::kIce40 ? ice40_cost(machine, folder)
                                          : ecp5_cost(machine, folder);
   cost.iob = machine.pins();
@@ -190,7 +200,7 @@ Cost cost_of(const Accelerator& accelerator) {
   const ScratchFolder scratch;
   const std::string folder = scratch.path().string() + "/";
   write_design(accelerator, folder, folder);
-  Cost cost = xc7_cost(accelerator, folder, {});
+  Cost cost = xc7_cost(accelerator, folder, {}, true);
   cost.iob = accelerator.pins();
   return cost;
 }

@@ -26,13 +26,20 @@ struct Cost {
 };
 
 /// Synthesises a circuit (Yosys) and finds its clock: xc7 by the delays of the cells along the slowest path, wires
-/// taken as kWireShare of it, and by the command sta of a newer Yosys (newer_yosys.hpp) where there is one; ice40 by
-/// place and route of its blocks (pipelines and filter apart, the slowest counts); ecp5 by place and route of the whole
-/// where nextpnr-ecp5 is on PATH, else without a clock.
+/// taken as kWireShare of it, and with_sta, side by side, by sta_ns(); ice40 by place and route of its blocks
+/// (pipelines and filter apart, the slowest counts); ecp5 by place and route of the whole where nextpnr-ecp5 is on
+/// PATH, else without a clock.
 ///
 /// error   Refusal (kOutsideTool) when yosys or nextpnr-ice40 is missing or one of the programs fails
 /// cost    20 to 300 s
-Cost cost_of(const Machine& machine, Family family, const Activity& activity = {});
+Cost cost_of(const Machine& machine, Family family, const Activity& activity = {}, bool with_sta = true);
+
+/// The slowest path of a circuit on xc7 by the command sta of a newer Yosys (newer_yosys.hpp); nothing where there is
+/// none.
+///
+/// error   Refusal (kOutsideTool) when it fails
+/// cost    20 to 100 s
+std::optional<double> sta_ns(const Machine& machine);
 
 /// The same of an accelerator on xc7.
 Cost cost_of(const Accelerator& accelerator);
