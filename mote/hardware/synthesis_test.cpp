@@ -6,7 +6,6 @@
 #include "mote/hardware/choice.hpp"
 #include "mote/hardware/machine/cost.hpp"
 #include "mote/hardware/random.hpp"
-#include "mote/hardware/sketch.hpp"
 #include "mote/hardware/words.hpp"
 
 namespace mote::hardware {
@@ -30,20 +29,25 @@ TEST(Area, AProductIsOneBlockOrLogic) {
   EXPECT_GT(made.lut, 200);
 }
 
-// claim    where two parts meet, the beginning and the end of a path are as long as the path in one circuit
-// referee  a sum behind a selection's register, in one
-TEST(PartCost, PathsGoOnFromPartToPart) {
-  const Format word{true, 7, 10};
-  Sketch sketch("chosen_sum", Multiplier::kDsp);
-  const Signal a = sketch.input("a_i", word);
-  const Signal b = sketch.input("b_i", word);
-  sketch.output("y_o", sketch.sum(sketch.select(sketch.input("s_i", {false, 1, 0}), a, b), a, word));
-  const PartCost whole = part_cost(sketch.done().circuit());
-  const PartCost choice = part_cost(Select{word}.circuit());
-  const PartCost sum = part_cost(Sum{word, word, word}.circuit());
-  EXPECT_EQ(choice.path_ns, 0);  // no register before it
-  EXPECT_GT(whole.path_ns, 0.5);
-  EXPECT_NEAR(choice.leaving_ns + sum.coming_ns, whole.path_ns, 0.05 * whole.path_ns);
+// claim    a machine with the anchor's pipelines takes what the anchor takes; others count once a lane, and one that is
+//          slower than all of the anchor rules the clock
+// referee  by hand; half of a clock's time goes to cells
+TEST(CostOfParts, PutsPipelinesInPlaceOfTheAnchors) {
+  const PartCost anchor{{1000, 800, 9, 7}, 4};
+  const PipelineCosts old{{{100, 90, 2, 1}, 3}, {{50, 40, 1, 0}, 2}};
+  const Cost same = cost_of_parts(anchor, 4, old, old);
+  EXPECT_EQ(same.lut, 1000);
+  EXPECT_EQ(same.ff, 800);
+  EXPECT_EQ(same.dsp, 9);
+  EXPECT_EQ(same.bram18, 7);
+  EXPECT_DOUBLE_EQ(*same.fmax_mhz, 125);
+  EXPECT_DOUBLE_EQ(*same.power_mw, power_mw(anchor.area, 125));
+  const Cost wider = cost_of_parts(anchor, 4, old, {{{110, 95, 3, 2}, 3.5}, {{52, 40, 1, 0}, 5}});
+  EXPECT_EQ(wider.lut, 1000 + 4 * (10 + 2));
+  EXPECT_EQ(wider.ff, 800 + 4 * 5);
+  EXPECT_EQ(wider.dsp, 9 + 4);
+  EXPECT_EQ(wider.bram18, 7 + 4);
+  EXPECT_DOUBLE_EQ(*wider.fmax_mhz, 100);
 }
 
 TEST(Routed, AUniformSourceIsFasterThanAWideSum) {

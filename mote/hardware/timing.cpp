@@ -61,20 +61,7 @@ class Analysis {
     for (const auto& [name, cell] : module["cells"].items()) cells_.push_back(cell_from(cell));
     for (std::size_t c = 0; c < cells_.size(); ++c) {
       for (const Pin& pin : cells_[c].outputs) drivers_[pin.net] = {c, &pin};
-      for (const Pin& pin : cells_[c].inputs) readers_[pin.net].emplace_back(c, &pin);
     }
-  }
-
-  PortPaths at_ports(const Json& ports) {
-    PortPaths paths;
-    for (const auto& [name, port] : ports.items()) {
-      const bool output = port["direction"] == "output";
-      double latest = -1;
-      for (const Json& bit : port["bits"])
-        if (bit.is_number()) latest = std::max(latest, output ? arrival(bit.get<Net>()).ps : tail(bit.get<Net>()));
-      if (latest >= 0) (output ? paths.to_output : paths.from_input)[name] = latest / 1000;
-    }
-    return paths;
   }
 
   SlowestPath slowest() {
@@ -97,24 +84,6 @@ class Analysis {
   }
 
  private:
-  /// From a net to the latest clock edge, set-up included; -1 where none is behind it.
-  double tail(Net net) {
-    const auto [found, fresh] = tails_.try_emplace(net, -1.0);
-    if (!fresh) return found->second;
-    double longest = -1;
-    for (const auto& [c, in] : readers_[net]) {
-      const Cell& cell = cells_[c];
-      if (const auto setup = setup_time(cell.kind, cell.parameters, in->port))
-        longest = std::max(longest, static_cast<double>(*setup));
-      for (const Pin& out : cell.outputs) {
-        const auto delay = through_delay(cell.kind, cell.parameters, in->port, in->bit, out.port, out.bit);
-        const double after = delay ? tail(out.net) : -1;
-        if (after >= 0) longest = std::max(longest, *delay + after);
-      }
-    }
-    return tails_[net] = longest;
-  }
-
   const Arrival& arrival(Net net) {
     const auto [found, fresh] = arrivals_.try_emplace(net);
     if (!fresh) return found->second;
@@ -136,9 +105,7 @@ class Analysis {
 
   std::vector<Cell> cells_;
   std::map<Net, std::pair<std::size_t, const Pin*>> drivers_;
-  std::map<Net, std::vector<std::pair<std::size_t, const Pin*>>> readers_;
   std::map<Net, Arrival> arrivals_;
-  std::map<Net, double> tails_;
 };
 
 /// The only module of a netlist that has cells.
@@ -153,11 +120,6 @@ Json module_of(const std::string& json, const std::string& top) {
 
 SlowestPath slowest_path(const std::string& json, const std::string& top) {
   return Analysis(module_of(json, top)).slowest();
-}
-
-PortPaths port_paths(const std::string& json, const std::string& top) {
-  const Json module = module_of(json, top);
-  return Analysis(module).at_ports(module.value("ports", Json::object()));
 }
 
 }  // namespace mote::hardware

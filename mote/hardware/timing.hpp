@@ -1,7 +1,6 @@
 #pragma once
 /// When signals arrive: static timing of a netlist of Xilinx 7-series cells, wires left out.
 
-#include <map>
 #include <string>
 
 namespace mote::hardware {
@@ -19,16 +18,5 @@ struct SlowestPath {
 /// cost    O(cells + wires)
 /// source  delays of Artix-7, speed grade -1, as Project X-Ray measured them from the vendor's timing files
 SlowestPath slowest_path(const std::string& json, const std::string& top);
-
-/// What a part adds to paths that go on outside it, by port: from a clock edge to an output, from an input to a clock
-/// edge with its set-up. Ports without such a path are left out.
-///
-/// unit   ns, cells only
-struct PortPaths {
-  std::map<std::string, double> to_output, from_input;
-};
-
-/// The same netlists, errors and cost as slowest_path().
-PortPaths port_paths(const std::string& json, const std::string& top);
 
 }  // namespace mote::hardware

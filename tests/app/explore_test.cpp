@@ -178,15 +178,18 @@ TEST_F(Explore, NamesADamagedLineOfTheState) {
   EXPECT_EQ(scratch_.read("e.json.state"), state + "{\"foo\":1}\n") << "nothing is lost";
 }
 
-/// A stand-in for Yosys: every part has 100 look-up tables, 60 flip-flops, a DSP block, two memory blocks and a path
-/// through one look-up table.
+/// A stand-in for Yosys: every pipeline has 100 look-up tables, 60 flip-flops, a DSP block and two memory blocks, a
+/// whole circuit three times as much, and a path leads through one look-up table.
 const std::string kYosys =
     "#!/bin/sh\n"
+    "top=$(printf %s \"$*\" | sed 's/.*-top \\([^;]*\\);.*/\\1/')\n"
     "net=$(printf %s \"$*\" | sed 's/.*write_json \\([^;]*\\);.*/\\1/')\n"
     "stat=$(printf %s \"$*\" | sed 's/.*tee -o \\([^ ]*\\) stat.*/\\1/')\n"
-    "printf 'Number of cells: 163\\n LUT2 100\\n FDRE 60\\n DSP48E1 1\\n RAMB36E1 1\\n' >\"$stat\"\n"
+    "k=3; [ \"$top\" = core ] && k=1\n"
+    "printf 'Number of cells: 163\\n LUT2 %d\\n FDRE %d\\n DSP48E1 %d\\n RAMB36E1 %d\\n' "
+    "$((100 * k)) $((60 * k)) $k $k >\"$stat\"\n"
     "cat >\"$net\" <<END\n"
-    R"({"modules":{"core":{"cells":{)"
+    R"({"modules":{"$top":{"cells":{)"
     R"("a":{"type":"FDRE","parameters":{},"port_directions":{"C":"input","D":"input","Q":"output"},)"
     R"("connections":{"C":[2],"D":[4],"Q":[3]}},)"
     R"("b":{"type":"LUT1","parameters":{},"port_directions":{"I0":"input","O":"output"},)"
@@ -194,9 +197,9 @@ const std::string kYosys =
     "\nEND\n";
 
 // claim    circuits are judged with what they take of a device by their parts; the pick's command writes one
-// referee  a stand-in for Yosys, whose areas are known: three parts, of which one has a table and grows with N: of its
-//          two memory blocks one is a table, the other holds two sets of up to 512 particles at N = 1024, or four of
-//          these at N = 2048
+// referee  a stand-in for Yosys, whose areas are known: of a circuit's six memory blocks four are its pipelines' and
+// one
+//          is a table; the last holds two sets of up to 512 particles at N = 1024, or four of these at N = 2048
 TEST_F(Explore, FindsCircuits) {
   scratch_.shell("mkdir bin");
   scratch_.write("bin/yosys", kYosys);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mote/app/explore/parallel.hpp"
 #include "mote/app/reproduce/laboratory.hpp"
 #include "mote/app/reproduce/script.hpp"
 #include "mote/base/refusal.hpp"
@@ -39,6 +40,33 @@ TEST(CircuitItems, CompareAGoldenModelWithTheFilter) {
   EXPECT_EQ(right.records.size(), 2U);
   auto twin = laboratory_for(circuit_item(rmse, R"("--arch", "imh", "-n", "2")")).regenerate([] {});
   EXPECT_FALSE(twin.results.front().holds) << twin.results.front().ours;
+}
+
+// claim    a figure does not depend on when its tool ran, nor on which ran beside it or on a simulation before
+// referee  the golden model's cycles and IMH's law, which take no tool
+// design   two circuits, simulated side by side, the last one first, and once more for the law
+TEST(CircuitItems, TakeTheirToolsInAnyOrder) {
+  const auto figure = [](const std::string& key, const std::string& run) {
+    return "[[compare]]\nname = \"" + key + " of " + run + "\"\nkind = \"circuit\"\nkey = \"" + key + "\"\nruns = [\"" +
+           run + "\"]\nat_most = 1e6\n";
+  };
+  auto laboratory = laboratory_for(circuit_item(kCycles + figure("golden_cycles", "circuit") +
+                                                    figure("step_cycles_over_law", "circuit") +
+                                                    figure("cycles", "small") + figure("golden_cycles", "small"),
+                                                R"("--arch", "imh", "-n", "200"]
+[[run]]
+name = "small"
+circuit = true
+options = ["--arch", "sisr", "-n", "50")"));
+  const auto errands = laboratory.errands();
+  ASSERT_EQ(errands.size(), 2U);
+  explore::in_parallel(2, 2, [&](std::size_t k) { errands[1 - k](); });
+  const auto results = laboratory.regenerate([] {}).results;
+  ASSERT_EQ(results.size(), 5U);
+  EXPECT_EQ(results[0].ours, results[1].ours);
+  EXPECT_EQ(results[2].ours, 1);
+  EXPECT_EQ(results[3].ours, results[4].ours);
+  EXPECT_NE(results[0].ours, results[3].ours);
 }
 
 TEST(CircuitItems, GoOnWithoutTheToolsAndSaySo) {

@@ -97,6 +97,25 @@ TEST(ReproduceDoor, ACollapsedFilterIsNoError) {
   EXPECT_NE(press.read("r/index.html").find("the filter collapsed"), std::string::npos);
 }
 
+// claim    tools that fail side by side end the program with the one sentence of the first, and nothing is written
+TEST(ReproduceDoor, AToolThatFailsIsNamedOnce) {
+  const Press press;
+  std::string item = sample_item();
+  for (const std::string n : {"50", "60"})
+    item += "[[run]]\nname = \"" + n + "\"\ncircuit = true\noptions = [\"--arch\", \"imh\", \"-n\", \"" + n +
+            "\"]\n[[compare]]\nname = \"cycles " + n + "\"\nkind = \"circuit\"\nkey = \"cycles\"\nruns = [\"" + n +
+            "\"]\nat_most = 1e6\n";
+  press.add("imh-hw", "a.toml", item);
+  press.scratch().shell("mkdir tools");
+  press.scratch().write("tools/verilator", "#!/bin/sh\necho broken >&2\nexit 3\n");
+  press.scratch().shell("chmod +x tools/verilator");
+  const Ended ended = press.scratch().shell("PATH=\"$PWD/tools:$PATH\" bin/mote reproduce imh-hw --out r");
+  EXPECT_EQ(ended.code, 5) << ended.err;
+  EXPECT_EQ(ended.err.find("verilator"), ended.err.rfind("verilator: expected exit code 0, got 3")) << ended.err;
+  EXPECT_NE(ended.err.find("broken"), std::string::npos) << ended.err;
+  EXPECT_FALSE(press.has("r/index.html"));
+}
+
 TEST(ReproduceDoor, RefusesABrokenItemBeforeAnyWork) {
   const Press press;
   press.add("imh-hw", "a.toml", sample_item());

@@ -96,14 +96,20 @@ RunRecord run_of_instances(const FilterCircuit& circuit, const CircuitDesign& de
 
 }  // namespace
 
+Simulators simulators_of(const FilterCircuit& circuit, const CircuitDesign& design, bool counts_changes) {
+  Simulators all;
+  for (unsigned i = 0; i < design.instances; ++i)
+    all.push_back(std::make_unique<hardware::Simulator>(circuit.instance(i), counts_changes));
+  return all;
+}
+
 CircuitSimulation simulated_run(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
-                                const std::string& where, bool counts_changes) {
+                                const std::string& where, const Simulators& simulators) {
   std::vector<hardware::Agreement> agreements;
   hardware::Activity activity;
   const auto simulate = [&](unsigned i, const std::vector<std::vector<std::int64_t>>& observed) {
     const hardware::Machine& machine = circuit.instance(i);
-    hardware::Simulator simulator(machine, counts_changes);
-    const hardware::CircuitRun run = simulator.run(design.registers, observed);
+    const hardware::CircuitRun run = simulators[i]->run(design.registers, observed);
     activity = run.activity;
     agreements.push_back(hardware::agreement(run, *machine.golden(), design.registers, observed));
     return run.estimates;

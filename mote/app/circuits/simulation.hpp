@@ -20,11 +20,19 @@ struct CircuitSimulation {
 std::vector<std::vector<std::int64_t>> observed_by(const FilterCircuit& circuit, const Recording& recording,
                                                    const std::string& where);
 
-/// Simulates a recording; counts_changes: of every bit, for an estimate of power, which takes a few times as long.
+/// A circuit's instances as programs.
+using Simulators = std::vector<std::unique_ptr<hardware::Simulator>>;
+
+/// Compiles them; counts_changes: of every bit, for an estimate of power, which takes a few times as long.
 ///
-/// error   as observed_by(); Refusal (kOutsideTool) when Verilator is missing or fails
+/// error   Refusal (kOutsideTool) when Verilator is missing or fails
+Simulators simulators_of(const FilterCircuit& circuit, const CircuitDesign& design, bool counts_changes = false);
+
+/// Simulates a recording, by programs that have run nothing before.
+///
+/// error   as observed_by()
 CircuitSimulation simulated_run(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,
-                                const std::string& where, bool counts_changes = false);
+                                const std::string& where, const Simulators& simulators);
 
 /// The golden model's run of a recording by the design's seed, without a simulation: what the circuit would give.
 RunRecord golden_run(const FilterCircuit& circuit, const CircuitDesign& design, const Recording& recording,

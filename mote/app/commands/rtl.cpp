@@ -137,8 +137,8 @@ ExitCode run_rtl(const Arguments& arguments) {
   CircuitReport found{job.model_name, arguments.command_line(), design, {}, {}, {}};
   const FilterCircuit circuit = filter_circuit(job.model, job.model_name, design, job.recording);
   if (arguments.given("--simulate"))
-    found.simulation =
-        simulated_run(circuit, design, job.recording, arguments.text("--simulate"), family == hardware::Family::kXc7);
+    found.simulation = simulated_run(circuit, design, job.recording, arguments.text("--simulate"),
+                                     simulators_of(circuit, design, family == hardware::Family::kXc7));
   if (family)
     found.cost = times(design.instances,
                        hardware::cost_of(*circuit.machine, *family,

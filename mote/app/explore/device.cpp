@@ -97,21 +97,21 @@ class Device final : public Target {
   const std::vector<Words>& candidates() const override { return candidates_; }
   bool measures() const override { return false; }
 
-  /// Every part once: filters before pipelines, which take less.
+  /// Every part once: whole circuits before pipelines, which take less.
   std::vector<Piece> shared_work() const override {
-    std::map<std::string, Part> filters;
+    std::map<std::string, Part> anchors;
     std::map<std::string, Part> pipelines;
     for (const Words& words : candidates_) {
       const CircuitDesign design = design_of(words);
       const FilterCircuit circuit = circuit_of(design);
       const FilterCircuit anchor = circuit_of(anchor_of(design));
       const Parts parts = parts_of(*circuit.machine, {*anchor.machine, kAnchor});
-      filters.try_emplace(parts.filter.name, parts.filter);
-      pipelines.try_emplace(parts.propose.name, parts.propose);
-      pipelines.try_emplace(parts.weigh.name, parts.weigh);
+      anchors.try_emplace(parts.anchor.name, parts.anchor);
+      for (const Part* pipeline : {&parts.propose, &parts.weigh, &parts.anchors_propose, &parts.anchors_weigh})
+        pipelines.try_emplace(pipeline->name, *pipeline);
     }
     std::vector<Piece> all;
-    for (const auto* kind : {&filters, &pipelines})
+    for (const auto* kind : {&anchors, &pipelines})
       for (const auto& [name, part] : *kind)
         all.emplace_back([part = part](Memory& memory) { remembered(part, memory); });
     return all;

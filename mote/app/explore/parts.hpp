@@ -1,6 +1,7 @@
 #pragma once
 /// What a circuit costs, by parts that several candidates share: each is synthesised once.
 
+#include <functional>
 #include <string>
 
 #include "mote/app/explore/target.hpp"
@@ -8,7 +9,8 @@
 
 namespace mote::explore {
 
-/// A machine of the same kind with as many lanes, whose filter stands for others that hold more or fewer particles.
+/// A machine of the same kind with as many lanes, which is synthesised whole and stands for others that hold more or
+/// fewer particles, of other words.
 struct Anchor {
   const hardware::Machine& machine;
   std::size_t particles;
@@ -17,12 +19,12 @@ struct Anchor {
 /// A part with a name that tells its text from every other's.
 struct Part {
   std::string name;
-  hardware::Circuit circuit;
+  std::function<hardware::PartCost()> synthesised;
 };
 
-/// The parts of a machine: its filter is the anchor's.
+/// The parts that a machine's cost follows from, two of them those of the anchor.
 struct Parts {
-  Part filter, propose, weigh;
+  Part anchor, propose, weigh, anchors_propose, anchors_weigh;
 };
 
 Parts parts_of(const hardware::Machine& machine, const Anchor& anchor);
@@ -30,7 +32,7 @@ Parts parts_of(const hardware::Machine& machine, const Anchor& anchor);
 /// What a part costs, which the memory keeps.
 ///
 /// error   Refusal (kOutsideTool) when yosys is missing or fails
-/// cost    1 to 20 s where it is not remembered
+/// cost    1 to 60 s where it is not remembered
 hardware::PartCost remembered(const Part& part, Memory& memory);
 
 /// The cost of a machine by hardware::cost_of_parts(). Look-up tables and flip-flops of a filter hardly depend on N

@@ -88,6 +88,21 @@ std::string Filters::missing_tool(const Comparison& c) {
   return "";
 }
 
+std::vector<std::function<void()>> Filters::errands() {
+  std::map<std::string, Tools> needed;
+  for (const Comparison& c : runs_.item().comparisons)
+    if (c.kind == Kind::kCircuit && missing_tool(c).empty())
+      for (const std::string& run : c.runs) {
+        const Tools tools = runs_.circuit(run).needed(c);
+        Tools& all = needed[run];
+        all = {all.simulation || tools.simulation, all.synthesis || tools.synthesis, all.sta || tools.sta};
+      }
+  std::vector<std::function<void()>> all;
+  for (const auto& [run, tools] : needed)
+    for (auto& errand : runs_.circuit(run).errands(tools, runs_.scene(0).recording)) all.push_back(std::move(errand));
+  return all;
+}
+
 std::vector<double> Filters::mean_estimates(const RunRecord& record, std::size_t state) {
   const RunRecord& origin = runs_.record(runs_.item().runs.front().name, 0, 0);  // angles are measured from it
   std::vector<double> means;

@@ -30,6 +30,8 @@ class Filters {
   /// Why a comparison's tool is not there, in a sentence; empty if it is. The golden model of a circuit goes on without
   /// the tools that simulate and synthesise.
   std::string missing_tool(const Comparison& comparison);
+  /// What tools have to find for comparisons of circuits (CircuitBench::errands()).
+  std::vector<std::function<void()>> errands();
   /// Filter runs that comparisons and figures take, those made before included.
   std::size_t work() const;
   /// What a comparison takes from a repeat of one of its runs; `ran` is called after every filter run.

@@ -258,7 +258,7 @@ Comparison comparison_from(Fields fields, const Item& item) {
         fields.refuse("runs", "names of runs with circuit = true");
   }
   if (c.kind == Kind::kDesign || c.kind == Kind::kAnalog) c.key = fields.text("key");
-  c.repeats = c.kind >= Kind::kCluster ? 1 : static_cast<int>(fields.integer("repeats", 2, kMostRepeats, 20));
+  c.repeats = has_chance(c) ? static_cast<int>(fields.integer("repeats", 2, kMostRepeats, 20)) : 1;
   read_condition(fields, c);
   c.note = fields.text_or("note", "");
   fields.finish();

@@ -169,6 +169,9 @@ inline constexpr std::array<std::string_view, 10> kTrackKeys{
 ///         twice, a comparison that nothing can fail
 Item read_item(const std::string& path, const std::string& paper);
 
+/// Whether repeats of a comparison differ.
+inline bool has_chance(const Comparison& comparison) { return comparison.kind < Comparison::Kind::kCluster; }
+
 /// What a comparison computes, in a sentence's words.
 std::string meaning_of(const Comparison& comparison);
 

@@ -35,6 +35,10 @@ std::string Laboratory::missing() const {
   return clip.empty() ? "" : fmt::format("there is no {}. Set MOTE_DATA to the folder with clips/.", clip);
 }
 
+std::vector<std::function<void()>> Laboratory::errands() {
+  return filters_ ? filters_->errands() : std::vector<std::function<void()>>();
+}
+
 std::size_t Laboratory::work() const {
   if (cinema_) return cinema_->work();
   if (clusters_) return clusters_->work();

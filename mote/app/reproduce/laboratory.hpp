@@ -54,6 +54,8 @@ class Laboratory {
   /// Why the item cannot be regenerated, in a sentence: its clip, SimGrid, ngspice or a tool for circuits is missing;
   /// empty if nothing is.
   std::string missing() const;
+  /// What outside tools have to find for regenerate(): pieces that may be done before it, side by side.
+  std::vector<std::function<void()>> errands();
   /// Filter runs that regenerate() takes, those it has made before included.
   std::size_t work() const;
   /// `ran` is called after every filter run.

@@ -1,6 +1,7 @@
 #include "mote/hardware/machine/cost.hpp"
 
 #include <algorithm>
+#include <future>
 #include <utility>
 
 #include "mote/base/refusal.hpp"
@@ -61,18 +62,48 @@ std::pair<Area, SlowestPath> synthesised(const std::string& folder, const std::s
   return {area, slowest_path(read_text(netlist), top)};
 }
 
+/// Area, clock and, beside them, the time by sta.
 template <class Design>
-Cost xc7_cost(const Design& design, const std::string& folder, const Activity& activity) {
+Cost xc7_cost(const Design& design, const std::string& folder, const Activity& activity, bool with_sta) {
+  const auto newer = with_sta ? NewerYosys::found() : std::nullopt;
+  std::future<double> sta;
+  if (newer) sta = std::async(std::launch::async, [&] { return yosys_sta(design, *newer); });
   const auto [area, path] = synthesised(folder, top_of(design));
   Cost cost{"XC7A100T-1 after synthesis; slowest path " + short_number(path.ns) + " ns of cells (" + path.cells + ")",
             area.lut, area.ff, area.dsp, area.bram18};
   cost.fmax_mhz = clock_of_path(path.ns);
-  if (const auto newer = NewerYosys::found())
-    cost.sta_ns = yosys_sta(design, *newer);
-  else
+  if (newer)
+    cost.sta_ns = sta.get();
+  else if (with_sta)
     cost.no_sta = std::string("Debian's Yosys has no sta: ") + kInstallNewerYosys;
   cost.power_mw = power_mw(area, *cost.fmax_mhz, activity);
   return cost;
+}
+
+/// The filter alone, the model's pipelines cut off.
+Circuit filter_alone(const Machine& machine) {
+  const Formats& f = machine.formats();
+  const Architecture& architecture = machine.architecture();
+  const int at = as_int(machine.capacity().at);
+  const int state = machine.particle_bits();
+  const int lanes = as_int(machine.capacity().lanes);
+  const int pair = state + lanes * as_int(f.carried * f.value_bits);
+  Circuit circuit{std::string(architecture.module), machine.parameters(), {{"start_i"}, {"steps_i", 16}}, {}, 0, true,
+                  machine.filter_tables()};
+  for (const Register& one : architecture.registers)
+    circuit.inputs.push_back({std::string(one.name) + "_i", one.flag ? 1 : at + 1});
+  for (const Port& port :
+       {Port{"obs_valid_i"}, Port{"obs_i", machine.model().observed_bits()}, Port{"propose_state_i", pair},
+        Port{"weigh_log_i", lanes * as_int(f.log_bits)}, Port{"est_ready_i"}})
+    circuit.inputs.push_back(port);
+  circuit.outputs = {{"busy_o"},
+                     {"obs_ready_o"},
+                     {"propose_state_o", state},
+                     {"propose_words_o", lanes * as_int(32 * f.draw_words)},
+                     {"est_valid_o"},
+                     {"est_mean_o", as_int(f.dims * (f.value_bits + f.extra_bits + 1))},
+                     {"est_sum_o", as_int(f.weight_bits) + at}};
+  return circuit;
 }
 
 Cost ice40_cost(const Machine& machine, const std::string& folder) {
@@ -106,80 +137,44 @@ Cost ecp5_cost(const Machine& machine, const std::string& folder) {
 
 }  // namespace
 
-Circuit filter_alone(const Machine& machine) {
-  const Formats& f = machine.formats();
-  const Architecture& architecture = machine.architecture();
-  const int at = as_int(machine.capacity().at);
-  const int state = machine.particle_bits();
-  const int lanes = as_int(machine.capacity().lanes);
-  const int pair = state + lanes * as_int(f.carried * f.value_bits);
-  Circuit circuit{std::string(architecture.module), machine.parameters(), {{"start_i"}, {"steps_i", 16}}, {}, 0, true,
-                  machine.filter_tables()};
-  for (const Register& one : architecture.registers)
-    circuit.inputs.push_back({std::string(one.name) + "_i", one.flag ? 1 : at + 1});
-  for (const Port& port :
-       {Port{"obs_valid_i"}, Port{"obs_i", machine.model().observed_bits()}, Port{"propose_state_i", pair},
-        Port{"weigh_log_i", lanes * as_int(f.log_bits)}, Port{"est_ready_i"}})
-    circuit.inputs.push_back(port);
-  circuit.outputs = {{"busy_o"},
-                     {"obs_ready_o"},
-                     {"propose_state_o", state},
-                     {"propose_words_o", lanes * as_int(32 * f.draw_words)},
-                     {"est_valid_o"},
-                     {"est_mean_o", as_int(f.dims * (f.value_bits + f.extra_bits + 1))},
-                     {"est_sum_o", as_int(f.weight_bits) + at}};
-  return circuit;
-}
-
 PartCost part_cost(const Circuit& circuit) {
   const ScratchFolder scratch;
   const std::string folder = scratch.path().string() + "/";
   write_bench(folder, "core", {circuit});
   const auto [area, path] = synthesised(folder, "core");
-  const PortPaths ports = port_paths(read_text(folder + "netlist.json"), "core");
-  const auto slowest = [](const std::map<std::string, double>& of, const auto& takes) {
-    double latest = 0;
-    for (const auto& [port, ns] : of)
-      if (takes(port)) latest = std::max(latest, ns);
-    return latest;
-  };
-  // a filter has other ports too, and log weights have a path of their own
-  const auto port_of = [&](const std::vector<Port>& of, const char* kind, const char* name) {
-    for (std::size_t p = 0; p < of.size(); ++p)
-      if (of[p].name == name) return kind + std::string("0_") + std::to_string(p);
-    return std::string();
-  };
-  const std::string log = port_of(circuit.inputs, "i", "weigh_log_i");
-  const std::string proposed = port_of(circuit.inputs, "i", "propose_state_i");
-  const std::string parents = port_of(circuit.outputs, "o", "propose_state_o");
-  const std::string words = port_of(circuit.outputs, "o", "propose_words_o");
-  const bool filter = !log.empty();
-  return {area, path.ns,
-          slowest(ports.to_output, [&](const std::string& p) { return !filter || p == parents || p == words; }),
-          slowest(ports.from_input, [&](const std::string& p) { return !filter || p == proposed; }),
-          slowest(ports.from_input, [&](const std::string& p) { return p == log; })};
+  return {area, path.ns};
 }
 
-Cost cost_of_parts(const Machine& machine, const PartCost& propose, const PartCost& weigh, const PartCost& filter) {
-  const auto lanes = as_int(machine.capacity().lanes);
-  const auto sum = [&](int Area::*count) {
-    return filter.area.*count + lanes * (propose.area.*count + weigh.area.*count);
+PartCost part_cost(const Machine& machine) {
+  const ScratchFolder scratch;
+  const std::string folder = scratch.path().string() + "/";
+  write_design(machine, folder, folder);
+  const auto [area, path] = synthesised(folder, machine.top_name());
+  return {area, path.ns};
+}
+
+Cost cost_of_parts(const PartCost& anchor, unsigned lanes, const PipelineCosts& anchors, const PipelineCosts& own) {
+  const auto with_own = [&](int Area::*count) {
+    return anchor.area.*count + as_int(lanes) * (own.propose.area.*count + own.weigh.area.*count -
+                                                 anchors.propose.area.*count - anchors.weigh.area.*count);
   };
-  const Area area{sum(&Area::lut), sum(&Area::ff), sum(&Area::dsp), sum(&Area::bram18)};
-  Cost cost{"XC7A100T-1 by the sum of parts after synthesis", area.lut, area.ff, area.dsp, area.bram18};
-  cost.iob = machine.pins();
-  cost.fmax_mhz = clock_of_path(
-      std::max({propose.path_ns, weigh.path_ns, filter.path_ns, filter.leaving_ns + propose.coming_ns,
-                propose.leaving_ns + std::max(filter.coming_ns, weigh.coming_ns), weigh.leaving_ns + filter.log_ns}));
+  const Area area{with_own(&Area::lut), with_own(&Area::ff), with_own(&Area::dsp), with_own(&Area::bram18)};
+  Cost cost{"XC7A100T-1 by parts after synthesis", area.lut, area.ff, area.dsp, area.bram18};
+  cost.fmax_mhz = clock_of_path(std::max({anchor.path_ns, own.propose.path_ns, own.weigh.path_ns}));
   cost.power_mw = power_mw(area, *cost.fmax_mhz);
   return cost;
 }
 
-Cost cost_of(const Machine& machine, Family family, const Activity& activity) {
+std::optional<double> sta_ns(const Machine& machine) {
+  const auto newer = NewerYosys::found();
+  return newer ? std::optional(yosys_sta(machine, *newer)) : std::nullopt;
+}
+
+Cost cost_of(const Machine& machine, Family family, const Activity& activity, bool with_sta) {
   const ScratchFolder scratch;
   const std::string folder = scratch.path().string() + "/";
   write_design(machine, folder, folder);
-  Cost cost = family == Family::kXc7     ? xc7_cost(machine, folder, activity)
+  Cost cost = family == Family::kXc7     ? xc7_cost(machine, folder, activity, with_sta)
               : family == Family::kIce40 ? ice40_cost(machine, folder)
                                          : ecp5_cost(machine, folder);
   cost.iob = machine.pins();
@@ -190,7 +185,7 @@ Cost cost_of(const Accelerator& accelerator) {
   const ScratchFolder scratch;
   const std::string folder = scratch.path().string() + "/";
   write_design(accelerator, folder, folder);
-  Cost cost = xc7_cost(accelerator, folder, {});
+  Cost cost = xc7_cost(accelerator, folder, {}, true);
   cost.iob = accelerator.pins();
   return cost;
 }

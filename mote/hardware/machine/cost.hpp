@@ -26,37 +26,46 @@ struct Cost {
 };
 
 /// Synthesises a circuit (Yosys) and finds its clock: xc7 by the delays of the cells along the slowest path, wires
-/// taken as kWireShare of it, and by the command sta of a newer Yosys (newer_yosys.hpp) where there is one; ice40 by
-/// place and route of its blocks (pipelines and filter apart, the slowest counts); ecp5 by place and route of the whole
-/// where nextpnr-ecp5 is on PATH, else without a clock.
+/// taken as kWireShare of it, and with_sta, side by side, by sta_ns(); ice40 by place and route of its blocks
+/// (pipelines and filter apart, the slowest counts); ecp5 by place and route of the whole where nextpnr-ecp5 is on
+/// PATH, else without a clock.
 ///
 /// error   Refusal (kOutsideTool) when yosys or nextpnr-ice40 is missing or one of the programs fails
 /// cost    20 to 300 s
-Cost cost_of(const Machine& machine, Family family, const Activity& activity = {});
+Cost cost_of(const Machine& machine, Family family, const Activity& activity = {}, bool with_sta = true);
+
+/// The slowest path of a circuit on xc7 by the command sta of a newer Yosys (newer_yosys.hpp); nothing where there is
+/// none.
+///
+/// error   Refusal (kOutsideTool) when it fails
+/// cost    20 to 100 s
+std::optional<double> sta_ns(const Machine& machine);
 
 /// The same of an accelerator on xc7.
 Cost cost_of(const Accelerator& accelerator);
 
-/// The filter alone, the model's pipelines cut off: with them, one of each a lane, it is the machine.
-Circuit filter_alone(const Machine& machine);
-
-/// A part of a circuit, synthesised by itself on xc7.
+/// A part of a machine, or a whole one, synthesised by itself on xc7.
 struct PartCost {
   Area area;
   double path_ns = 0;  ///< its slowest path from register to register, cells only
-  /// Of paths that go on in other parts: the beginning of the slowest that leaves, the end of the slowest that comes
-  /// in. A filter's are those to and from proposals.
-  double leaving_ns = 0, coming_ns = 0;
-  double log_ns = 0;  ///< of a filter: the end of paths that come in with log weights
 };
 
 /// error   Refusal (kOutsideTool) when yosys is missing or fails
-/// cost    1 to 20 s
+/// cost    a pipeline: 1 to 20 s; a machine: 20 to 60 s
 PartCost part_cost(const Circuit& circuit);
+PartCost part_cost(const Machine& machine);
 
-/// What a machine takes by its parts: the sum of their areas, pipelines once a lane, and the slowest of their paths and
-/// of those from one into the next; on xc7. What is shared, or cut short, where parts meet is not seen.
-Cost cost_of_parts(const Machine& machine, const PartCost& propose, const PartCost& weigh, const PartCost& filter);
+/// A model's two pipelines.
+struct PipelineCosts {
+  PartCost propose, weigh;
+};
+
+/// What a machine takes on xc7 by another one, the anchor, of its kind and lanes: its own pipelines stand in place of
+/// the anchor's, once a lane. Its clock is the anchor's, or that of a pipeline of its own that is slower: where
+/// pipelines and filter meet it is taken to be as the anchor.
+///
+/// cost    none: no tool is called
+Cost cost_of_parts(const PartCost& anchor, unsigned lanes, const PipelineCosts& anchors, const PipelineCosts& own);
 
 /// Power of a 7-series device that is busy all the time: an estimate, not a measurement.
 ///

@@ -331,4 +331,11 @@ std::vector<DesignFile> Machine::tables() const {
   return all;
 }
 
+std::string Machine::text() const {
+  std::string text;
+  for (const auto& files : {modules(""), tables()})
+    for (const DesignFile& file : files) text += file.name + '\n' + file.text;
+  return text;
+}
+
 }  // namespace mote::hardware

@@ -66,6 +66,8 @@ class Machine {
   /// The modules that it is made of: the top module last, before it those that it needs, of the library too.
   std::vector<DesignFile> modules(const std::string& folder) const;
   std::vector<DesignFile> tables() const;
+  /// All of them in one: machines of equal texts are the same circuit.
+  std::string text() const;
   /// Of the filter's module, without its tables, and those.
   std::vector<Parameter> parameters() const;
   std::vector<Memory> filter_tables() const;
