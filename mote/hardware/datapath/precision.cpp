@@ -23,7 +23,7 @@ constexpr double kFaintOctaves = 8;
 // times what is borne in the mean that no sample may exceed; of pairs less, whose log density is steep in few places
 constexpr double kWorst = 8, kWorstOfPairs = 0.25;
 // after the point of numbers about 1, and of the smallest
-constexpr int kMostFraction = 30, kMostOfSmall = 60;
+constexpr int kMostFraction = 30, kMostOfSmall = 96;
 constexpr int kMostBits = 40;
 constexpr int kWideState = 26;    // bits from which on it is asked whether only particles that have run away need them
 constexpr int kConstantBits = 3;  // more: a constant's error is the same for all particles
