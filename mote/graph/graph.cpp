@@ -36,9 +36,27 @@ constexpr std::array<Fact, 18> kFacts{{{"constant", 0},
 std::size_t arity(Op op) { return kFacts[static_cast<std::size_t>(op)].arity; }
 std::string_view name_of(Op op) { return kFacts[static_cast<std::size_t>(op)].name; }
 
+std::uint64_t mark_of(Op op, const std::array<double, 4>& values, const std::array<std::uint64_t, 4>& marks) {
+  if (std::all_of(marks.begin(), marks.end(), [](std::uint64_t mark) { return mark == 0; })) return 0;
+  std::uint64_t mark = static_cast<std::uint64_t>(op) + kMarkOfTime;
+  for (std::size_t k = 0; k < arity(op); ++k)
+    mark = (std::rotl(mark, 23) ^ (marks[k] == 0 ? std::bit_cast<std::uint64_t>(values[k]) : marks[k])) *
+           0x9E3779B97F4A7C15U;
+  return mark | kMarkOfOperation;
+}
+
 Id Graph::constant(double value) {
   Vertex vertex;
   vertex.value = value;
+  if (constants_ == Constants::kApart) vertex.index = apart_++;
+  return interned(vertex);
+}
+
+Id Graph::constant_of_step(double value, std::uint64_t mark) {
+  Vertex vertex;
+  vertex.value = value;
+  vertex.role = Role::kSchedule;
+  vertex.args = {static_cast<Id>(mark), static_cast<Id>(mark >> 32U)};
   if (constants_ == Constants::kApart) vertex.index = apart_++;
   return interned(vertex);
 }

@@ -44,6 +44,17 @@ std::size_t arity(Op op);
 /// Name of an operation, "multiply".
 std::string_view name_of(Op op);
 
+/// The mark of t itself: a mark says how a number follows t, 0 that it does not.
+inline constexpr std::uint64_t kMarkOfTime = 1;
+/// A bit that the marks of all operations have and t's has not.
+inline constexpr std::uint64_t kMarkOfOperation = 2;
+
+/// The mark of what an operation makes of numbers by theirs; those without one count by their values. 0 if all are.
+///
+/// A hash: of two ways to follow t, the chance that they have one mark is 2^-63. They are told apart by their values
+/// too.
+std::uint64_t mark_of(Op op, const std::array<double, 4>& values, const std::array<std::uint64_t, 4>& marks);
+
 /// What stands behind an input.
 enum class Role : std::uint8_t {
   kState,         ///< component of x_t, where it is weighed
@@ -59,13 +70,16 @@ enum class Role : std::uint8_t {
 
 struct Vertex {
   Op op = Op::kConstant;
-  std::array<Id, 4> args{};  ///< the first arity(op) are operands
+  std::array<Id, 4> args{};  ///< the first arity(op) are operands; of a constant that follows t, the halves of its mark
   double value = 0;          ///< of a constant
-  Role role = Role::kState;  ///< of an input
+  Role role = Role::kState;  ///< of an input; kSchedule of a constant that is known to follow t
   std::uint32_t index = 0;   ///< of an input within its role; of a constant kept apart, its number
 
   std::span<const Id> operands() const { return {args.data(), arity(op)}; }
 };
+
+/// Whether it is a constant of one step that is known to follow t.
+inline bool follows_t(const Vertex& v) { return v.op == Op::kConstant && v.role == Role::kSchedule; }
 
 /// Whether equal constants are one vertex.
 enum class Constants : std::uint8_t {
@@ -78,6 +92,8 @@ class Graph {
   explicit Graph(Constants constants = Constants::kMerged) : constants_(constants) {}
 
   Id constant(double value);
+  /// A constant of this step, that others are for at other steps; equal marks follow t alike.
+  Id constant_of_step(double value, std::uint64_t mark);
   Id input(Role role, std::uint32_t index);
   /// The vertex of an operation; the first arity(op) of `args` are its operands, the others 0.
   Id operation(Op op, const std::array<Id, 4>& args);

@@ -16,11 +16,20 @@ class Node {
   Node() = default;
   explicit Node(double constant) : constant_(constant) {}
   Node(Graph& graph, Id id) : graph_(&graph), id_(id) {}
+  /// A constant that follows t in the way that the mark stands for: so does what is computed from it.
+  static Node following_t(double constant, std::uint64_t mark) {
+    Node node(constant);
+    node.mark_ = mark;
+    return node;
+  }
 
   bool is_constant() const { return graph_ == nullptr; }
   double constant() const { return constant_; }
   /// The vertex, in the graph.
-  Id id_in(Graph& graph) const { return graph_ == nullptr ? graph.constant(constant_) : id_; }
+  Id id_in(Graph& graph) const {
+    if (graph_ != nullptr) return id_;
+    return mark_ == 0 ? graph.constant(constant_) : graph.constant_of_step(constant_, mark_);
+  }
 
   friend Node operator+(const Node& a, const Node& b) { return made(Op::kAdd, a, b); }
   friend Node operator-(const Node& a, const Node& b) { return made(Op::kSubtract, a, b); }
@@ -48,13 +57,15 @@ class Node {
   static Node made(Op op, const N&... nodes) {
     Graph* graph = nullptr;
     ((graph = nodes.graph_ == nullptr ? graph : nodes.graph_), ...);
-    if (graph == nullptr) return Node(apply<double>(op, {nodes.constant_...}));
+    if (graph == nullptr)
+      return following_t(apply<double>(op, {nodes.constant_...}), mark_of(op, {nodes.constant_...}, {nodes.mark_...}));
     return {*graph, graph->operation(op, {nodes.id_in(*graph)...})};
   }
 
   Graph* graph_ = nullptr;
   Id id_ = 0;
   double constant_ = 0;
+  std::uint64_t mark_ = 0;  ///< of a constant that follows t
 };
 
 struct Node::Condition {

@@ -154,10 +154,15 @@ Program::Program(const Graph& graph, std::span<const Id> outputs) {
     number[id] = static_cast<std::uint32_t>(code_.size());
     Vertex v = graph[id];
     Varies varies = arity(v.op) == 0 ? varies_of(v) : Varies::kNever;
+    std::array<double, 4> values{};
+    std::array<std::uint64_t, 4> marks{};
     for (std::size_t k = 0; k < arity(v.op); ++k) {
       v.args[k] = number[v.args[k]];
       varies = std::max(varies, varies_[v.args[k]]);
+      values[k] = code_[v.args[k]].value;
+      marks[k] = marks_[v.args[k]];
     }
+    marks_.push_back(varies == Varies::kStep && v.op == Op::kInput ? kMarkOfTime : mark_of(v.op, values, marks));
     code_.push_back(v);
     varies_.push_back(varies);
   }

@@ -99,7 +99,10 @@ class Program {
         known[i] = v.op == Op::kConstant ? v.value
                    : v.op == Op::kInput  ? static_cast<double>(t)
                                          : apply<double>(v.op, operands(v, known));
-        values[i] = S(known[i]);
+        if constexpr (requires { S::following_t(known[i], marks_[i]); })
+          values[i] = S::following_t(known[i], marks_[i]);
+        else
+          values[i] = S(known[i]);
       } else {
         values[i] = v.op == Op::kInput ? read(v, sources) : apply<S>(v.op, operands(v, values));
       }
@@ -121,6 +124,7 @@ class Program {
 
   std::vector<Vertex> code_;  ///< operands are numbers of values here
   std::vector<Varies> varies_;
+  std::vector<std::uint64_t> marks_;  ///< how what varies with the step follows t
   std::vector<std::uint32_t> outputs_;
   BlockCode block_;
 };

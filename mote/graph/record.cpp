@@ -13,7 +13,8 @@ namespace {
 /// Steps at which a model has to do the same operations.
 constexpr std::array<Step, 4> kProbes{1, 2, 3, 7};
 
-/// Steps at which constants are looked at, from 1 on: what follows t only later on is found by those far away.
+/// Steps at which constants without a mark are looked at, from 1 on: what follows t only later on is found by those far
+/// away.
 constexpr Step kLastLook = 65535, kEveryStepTo = 256;
 constexpr Step look_after(Step t) { return t < kEveryStepTo ? t + 1 : t + t / 16; }
 
@@ -43,20 +44,23 @@ std::vector<std::vector<double>> constants_of(const std::function<Trace(Step)>& 
   return looks;
 }
 
-/// Which constants follow t, and the places of each number of the schedule in the trace.
+/// Which constants follow t, and the places of each number of the schedule in the trace. One with a mark does, whatever
+/// it is at the looks; one that the model computes in double does where it differs between them. Those are one number
+/// that have one mark and are equal at all looks.
 struct Schedule {
   std::map<Id, std::uint32_t> number;  ///< by vertex of the trace
   std::vector<Id> places;              ///< by number, one of its vertices
 
-  explicit Schedule(const std::vector<std::vector<double>>& looks) {
-    std::map<std::vector<std::uint64_t>, std::uint32_t> known;  // by the bits of all values
-    for (Id id = 0; id < looks[0].size(); ++id) {
-      if (std::all_of(looks.begin(), looks.end(),
-                      [&](const auto& look) { return same_number(look[id], looks[0][id]); }))
+  Schedule(const Graph& trace, const std::vector<std::vector<double>>& looks) {
+    std::map<std::vector<std::uint64_t>, std::uint32_t> known;  // by the mark and the bits of all values
+    for (Id id = 0; id < trace.size(); ++id) {
+      const Vertex& v = trace[id];
+      if (!follows_t(v) && std::all_of(looks.begin(), looks.end(),
+                                       [&](const auto& look) { return same_number(look[id], looks[0][id]); }))
         continue;
-      std::vector<std::uint64_t> values;
-      for (const auto& look : looks) values.push_back(std::bit_cast<std::uint64_t>(look[id]));
-      const auto [place, fresh] = known.try_emplace(values, static_cast<std::uint32_t>(places.size()));
+      std::vector<std::uint64_t> name{v.args[0], v.args[1]};
+      for (const auto& look : looks) name.push_back(std::bit_cast<std::uint64_t>(look[id]));
+      const auto [place, fresh] = known.try_emplace(name, static_cast<std::uint32_t>(places.size()));
       if (fresh) places.push_back(id);
       number.emplace(id, place->second);
     }
@@ -142,7 +146,7 @@ Recorded recorded(const std::function<Trace(Step)>& trace, std::vector<Quantity>
   const Trace first = trace(kProbes[0]);
   for (const Step t : kProbes)
     if (!same_operations(trace(t).graph, first.graph)) refuse_change(t);
-  const Schedule schedule(constants_of(trace, first));
+  const Schedule schedule(first.graph, constants_of(trace, first));
   std::vector<Id> now;
   const Graph graph = with_schedule(first.graph, schedule, now);
   std::vector<Id> outputs;

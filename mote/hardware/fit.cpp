@@ -68,14 +68,25 @@ class PiecewiseFit {
     return std::isnan(steps) ? 0.0 : std::clamp(steps, -reach, reach);
   }
 
-  /// The unit, unless one of its segments misses the goal at 17 numbers.
-  std::optional<Piecewise> fitted_within(double steps) {
-    for (std::size_t entry = 0; entry < unit_.table_.size(); ++entry) {
-      const Segment segment = segment_of(entry);
-      unit_.table_[entry] = coefficients(segment);
-      if (error_in(unit_, *this, segment, 17) > steps) return {};
-    }
+  /// A number at which a shape missed its goal: others of the same function are likely to miss it there.
+  struct Hard {
+    std::uint64_t u = 0;
+    bool negative = false;
+  };
+
+  /// The unit, unless one of its segments misses the goal at 17 numbers or then at `points`.
+  std::optional<Piecewise> fitted_within(double steps, std::uint64_t points, Hard& hard) {
+    const auto keeps = [&](std::size_t entry) {
+      unit_.table_[entry] = coefficients(segment_of(entry));
+      return within(unit_, entry, steps, 17, hard);
+    };
+    if (!all_keep(keeps, hard) || !good(unit_, steps, points, hard)) return {};
     return unit_;
+  }
+
+  /// Does every segment keep to the goal at so many numbers? Stops at the first that does not.
+  bool good(const Piecewise& unit, double steps, std::uint64_t points, Hard& hard) const {
+    return all_keep([&](std::size_t entry) { return within(unit, entry, steps, points, hard); }, hard);
   }
 
   Piecewise fitted() {
@@ -84,23 +95,43 @@ class PiecewiseFit {
     return unit_;
   }
 
-  /// The greatest error at the numbers of a segment, in steps of y.
-  static double error_in(const Piecewise& unit, const PiecewiseFit& fit, const Segment& segment, std::uint64_t points) {
-    double worst = 0;
-    for_numbers(segment, fit.unit_.u_greatest_, points, [&](std::uint64_t u) {
+  /// The greatest error of a segment at so many numbers, in steps of y, and where it is.
+  struct Error {
+    double steps = 0;
+    std::uint64_t u = 0;
+  };
+  Error error_in(const Piecewise& unit, const Segment& segment, std::uint64_t points) const {
+    Error worst;
+    for_numbers(segment, unit_.u_greatest_, points, [&](std::uint64_t u) {
       const auto cell = unit.cell_of(u, segment.negative);
       const auto& c = unit.table_[cell.entry];
       const Word slope = c.c1 + ((c.c2 * cell.delta) >> unit.delta_bits_);
-      const Word kept = (c.c0 + ((slope * cell.delta) >> unit.delta_bits_)) >> fit.shape_.guard;
-      const Format& y = fit.shape_.y;
-      const double want = std::clamp(fit.wanted(static_cast<double>(u), segment.negative),
-                                     static_cast<double>(y.least()), static_cast<double>(y.greatest()));
-      worst = std::max(worst, std::abs(static_cast<double>(std::clamp(kept, y.least(), y.greatest())) - want));
+      const Word kept = (c.c0 + ((slope * cell.delta) >> unit.delta_bits_)) >> shape_.guard;
+      const Format& y = shape_.y;
+      const double want = std::clamp(wanted(static_cast<double>(u), segment.negative), static_cast<double>(y.least()),
+                                     static_cast<double>(y.greatest()));
+      const double error = std::abs(static_cast<double>(std::clamp(kept, y.least(), y.greatest())) - want);
+      if (error > worst.steps) worst = {error, u};
     });
     return worst;
   }
 
  private:
+  bool within(const Piecewise& unit, std::size_t entry, double steps, std::uint64_t points, Hard& hard) const {
+    const Segment segment = segment_of(entry);
+    const Error worst = error_in(unit, segment, points);
+    if (worst.steps <= steps) return true;
+    hard = {worst.u, segment.negative};
+    return false;
+  }
+  template <class Keeps>
+  bool all_keep(Keeps keeps, const Hard& hard) const {
+    if (!keeps(unit_.cell_of(hard.u, hard.negative).entry)) return false;
+    for (std::size_t entry = 0; entry < shape_.entries(); ++entry)
+      if (!keeps(entry)) return false;
+    return true;
+  }
+
   /// Calls visit(u) for up to `points` numbers of the segment, the first and the last among them.
   template <class Visit>
   static void for_numbers(const Segment& segment, std::uint64_t greatest, std::uint64_t points, Visit visit) {
@@ -151,23 +182,15 @@ Piecewise fit_shape(const Function& function, const PiecewiseShape& shape) {
 
 namespace {
 
-/// Does every segment keep to the goal at so many numbers? Stops at the first that does not.
-bool good_enough(const Piecewise& unit, const Function& function, double steps, std::uint64_t points) {
-  const PiecewiseFit fit(function, unit.shape());
-  for (std::size_t entry = 0; entry < unit.shape().entries(); ++entry)
-    if (PiecewiseFit::error_in(unit, fit, fit.segment_of(entry), points) > steps) return false;
-  return true;
-}
-
 /// The shape of the fewest segments for one bottom that is good at so many numbers of each, if it is smaller than the
 /// last.
 void improve(std::vector<Piecewise>& found, const Function& function, PiecewiseShape shape, const FitGoal& goal,
-             std::uint64_t points) {
+             std::uint64_t points, PiecewiseFit::Hard& hard) {
   for (shape.segment_bits = 1; shape.segment_bits < shape.u_bits() && shape.segment_bits <= 12; ++shape.segment_bits) {
     const std::size_t limit = found.empty() ? goal.most_entries : found.back().shape().entries() - 1;
     if (shape.entries() > limit) return;
-    std::optional<Piecewise> unit = PiecewiseFit(function, shape).fitted_within(goal.steps);
-    if (!unit || !good_enough(*unit, function, goal.steps, points)) continue;
+    std::optional<Piecewise> unit = PiecewiseFit(function, shape).fitted_within(goal.steps, points, hard);
+    if (!unit) continue;
     found.push_back(std::move(*unit));
     return;
   }
@@ -179,12 +202,15 @@ Piecewise fit_piecewise(const Function& function, const Format& x, const Format&
                         const FitGoal& goal) {
   PiecewiseShape shape{x, y, fold, centre, 0, 1, goal.degree, 4, goal.multiplier};
   constexpr std::uint64_t kMany = 4097;
+  PiecewiseFit::Hard hard;
   for (const std::uint64_t points : {std::uint64_t{65}, kMany}) {  // few as a rule are enough to choose by
     std::vector<Piecewise> found;
     for (shape.bottom = shape.u_bits(); shape.bottom >= 1; --shape.bottom)
-      improve(found, function, shape, goal, points);
+      improve(found, function, shape, goal, points, hard);
+    if (found.empty()) break;  // nor is anything good at more numbers
     for (; !found.empty(); found.pop_back())
-      if (good_enough(found.back(), function, goal.steps, kMany)) return std::move(found.back());
+      if (PiecewiseFit(function, found.back().shape()).good(found.back(), goal.steps, kMany, hard))
+        return std::move(found.back());
   }
   throw Refusal(ExitCode::kWrongUse, {"piecewise polynomial", "x " + x.name() + ", y " + y.name(),
                                       "an error of at most " + std::to_string(goal.steps) + " steps with at most " +
@@ -196,7 +222,7 @@ double worst_error(const Piecewise& unit, const Function& function, std::uint64_
   const PiecewiseFit fit(function, unit.shape());
   double worst = 0;
   for (std::size_t entry = 0; entry < unit.shape().entries(); ++entry)
-    worst = std::max(worst, PiecewiseFit::error_in(unit, fit, fit.segment_of(entry), points));
+    worst = std::max(worst, fit.error_in(unit, fit.segment_of(entry), points).steps);
   return worst;
 }
 

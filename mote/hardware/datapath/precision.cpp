@@ -5,6 +5,7 @@
 
 #include "mote/graph/words.hpp"
 #include "mote/hardware/datapath/draws.hpp"
+#include "mote/hardware/datapath/reach.hpp"
 #include "mote/hardware/datapath/tape.hpp"
 
 namespace mote::hardware {
@@ -22,8 +23,9 @@ constexpr double kFaintOctaves = 8;
 // times what is borne in the mean that no sample may exceed; of pairs less, whose log density is steep in few places
 constexpr double kWorst = 8, kWorstOfPairs = 0.25;
 // after the point of numbers about 1, and of the smallest
-constexpr int kMostFraction = 30, kMostOfSmall = 60;
+constexpr int kMostFraction = 30, kMostOfSmall = 96;
 constexpr int kMostBits = 40;
+constexpr int kWideState = 26;    // bits from which on it is asked whether only particles that have run away need them
 constexpr int kConstantBits = 3;  // more: a constant's error is the same for all particles
 
 /// Mean squares of slopes, each finite one, and the largest.
@@ -313,7 +315,9 @@ class Analysis {
 
 Precision precision_of(const Plan& plan, const graph::Recorded& recorded, const Samples& samples, double margin,
                        int more_bits) {
-  return Analysis(plan, recorded, samples).precision(margin, more_bits);
+  Precision all = Analysis(plan, recorded, samples).precision(margin, more_bits);
+  if (all.states[0].width() <= kWideState + more_bits) return all;
+  return Analysis(plan, recorded, within_reach(plan, recorded, samples)).precision(margin, more_bits);
 }
 
 }  // namespace mote::hardware

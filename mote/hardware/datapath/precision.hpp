@@ -26,7 +26,8 @@ struct Precision {
 /// comparisons read is known to 2^-8 and to a thousandth of its range.
 ///
 /// Integer bits hold what was sampled, widened by `margin`, or what interval analysis allows where that costs at most
-/// two bits more; words saturate.
+/// two bits more; words saturate. Where states take more than 26 bits for that, samples of particles that have run away
+/// are left out.
 ///
 /// shape   more_bits: after the point, of every word
 /// cost    O(samples vertices states)

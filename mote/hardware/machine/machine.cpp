@@ -103,11 +103,20 @@ EstimateLines estimate_lines(const Architecture& architecture, const Formats& f,
 }
 
 /// The sums of weighted values have to stay within 64 bits of the golden model.
-void refuse_wide_sums(const Formats& f, const Capacity& capacity) {
-  const unsigned bits = f.value_bits + f.weight_bits + capacity.at;
-  if (bits > 63)
-    throw Refusal(ExitCode::kWrongUse, {"circuit", "particles and proposals", "sums of at most 63 bits",
-                                        std::to_string(bits), "Take fewer."});
+void refuse_wide_sums(const ModelCircuit& model, const Capacity& capacity) {
+  const Formats& f = model.arithmetic.formats;
+  const unsigned most = 63 - f.weight_bits - capacity.at;
+  if (f.value_bits <= most) return;
+  std::string states;
+  for (const Field& state : model.states)
+    states += (states.empty() ? "" : ", ") + state.name + ' ' + state.format.name();
+  throw Refusal(ExitCode::kWrongUse,
+                {"circuit", "states of " + model.name,
+                 "words of at most " + std::to_string(most) + " bits for up to " + std::to_string(1U << capacity.at) +
+                     " particles or proposals",
+                 std::to_string(f.value_bits) + " (" + states + ")",
+                 "Write a state that is far from 0 beside its noise as the difference to a constant, or pass a smaller "
+                 "--particles."});
 }
 
 }  // namespace
@@ -122,7 +131,7 @@ Machine::Machine(ModelCircuit model, const Architecture& architecture, const Run
       access_(access) {
   capacity_.variant = variant;
   std::replace(name_.begin(), name_.end(), '-', '_');
-  refuse_wide_sums(formats(), capacity_);
+  refuse_wide_sums(model_, capacity_);
 }
 
 unsigned Machine::stages() const {
