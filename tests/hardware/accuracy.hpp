@@ -58,8 +58,7 @@ std::vector<std::vector<double>> golden_means(Golden& filter, const Subject& sub
   for (const ObservedStep& step : recording.steps) {
     const auto observed = subject.datapath.observe(step.rows[0], subject.recorded.schedule(step.t));
     const Estimate estimate = filter.step(observed);
-    std::vector<double>& mean = means.emplace_back();
-    for (std::size_t d = 0; d < estimate.mean.size(); ++d) mean.push_back(subject.datapath.mean(d, estimate.mean[d]));
+    means.push_back(subject.datapath.means(estimate.mean));
   }
   return means;
 }

@@ -40,8 +40,7 @@ hardware::ModelCircuit model_circuit(const std::string& name, const FilterCircui
                                {},
                                {},
                                path.arithmetic};
-  for (std::size_t d = 0; d < path.states.size(); ++d)
-    model.states.push_back({circuit.recorded.states[d].name, path.states[d]});
+  for (std::size_t d = 0; d < path.states.size(); ++d) model.states.push_back({path.names[d], path.states[d]});
   for (const hardware::ObservedField& field : path.observed) model.observed.push_back({field.name, field.format});
   return model;
 }

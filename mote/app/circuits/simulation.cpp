@@ -36,7 +36,7 @@ EstimateRow row_of(const FilterCircuit& circuit, const CircuitDesign& design, St
   const std::uint64_t offered = design.architecture->offered(design.registers, circuit.machine->capacity());
   const std::uint64_t decided = design.architecture->decided(design.registers, circuit.machine->capacity());
   EstimateRow row{t, {}, {}, {}};
-  for (std::size_t d = 0; d < path.states.size(); ++d) row.states.push_back({path.mean(d, estimate.mean[d]), kNaN});
+  for (const double mean : path.means(estimate.mean)) row.states.push_back({mean, kNaN});
   const double octaves = hardware::log2_evidence(estimate, path.arithmetic.formats, offered) + path.constant;
   row.report.log_evidence = seen ? octaves * std::numbers::ln2 : 0;
   row.report.ess = kNaN;

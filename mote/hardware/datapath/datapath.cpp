@@ -8,6 +8,7 @@
 #include <span>
 
 #include "mote/graph/evaluate.hpp"
+#include "mote/hardware/datapath/directions.hpp"
 #include "mote/hardware/datapath/draws.hpp"
 #include "mote/hardware/datapath/mapping.hpp"
 #include "mote/hardware/random.hpp"
@@ -255,8 +256,16 @@ std::vector<std::int64_t> Datapath::observe(const Row<double>& row, const std::v
   return host(row, schedule);
 }
 
-double Datapath::mean(std::size_t d, std::int64_t word) const {
-  return std::ldexp(static_cast<double>(word), -states[d].fraction - static_cast<int>(arithmetic.formats.extra_bits));
+std::vector<double> Datapath::means(const std::vector<std::int64_t>& words) const {
+  std::vector<double> all;
+  for (std::size_t d = 0; d < words.size(); ++d)
+    all.push_back(std::ldexp(static_cast<double>(words[d]),
+                             -states[d].fraction - static_cast<int>(arithmetic.formats.extra_bits)));
+  const std::size_t model = words.size() - 2 * turning.size();
+  for (std::size_t k = 0; k < turning.size(); ++k)
+    all[turning[k]] = std::atan2(all[model + 2 * k + 1], all[model + 2 * k]);
+  all.resize(model);
+  return all;
 }
 
 Connections propose_connections(const Datapath& datapath) {
@@ -281,11 +290,15 @@ Connections weigh_connections(const Datapath& datapath) {
   return all;
 }
 
-Datapath datapath(const graph::Recorded& recorded, const Samples& samples, const DatapathOptions& options) {
-  const Plan plan = plan_of(recorded);
-  const Precision precision = precision_of(plan, recorded, samples, options.margin, options.more_bits);
-  Builder builder(plan, recorded, precision, options);
+Datapath datapath(const graph::Recorded& model, const Samples& samples, const DatapathOptions& options) {
   Datapath made;
+  made.turning = turning_states(model, samples);
+  const graph::Recorded recorded = with_directions(model, made.turning);
+  for (const Quantity& state : recorded.states) made.names.push_back(state.name);
+  const Plan plan = plan_of(recorded);
+  const Precision precision =
+      precision_of(plan, recorded, with_directions(samples, made.turning), options.margin, options.more_bits);
+  Builder builder(plan, recorded, precision, options);
   made.propose = builder.propose();
   made.weigh = builder.weigh();
   made.states = precision.states;

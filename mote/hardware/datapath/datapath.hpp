@@ -48,6 +48,8 @@ struct Datapath {
   Compound propose{"propose"}, weigh{"weigh"};
   Arithmetic arithmetic;                ///< formats and golden twins; `observed` has the fields in order
   std::vector<Format> states;           ///< binary points by state, all of formats.value_bits bits
+  std::vector<std::string> names;       ///< of these states: the model's, then those of directions (directions.hpp)
+  std::vector<std::uint32_t> turning;   ///< states of the model that have directions, in their order
   std::vector<ObservedField> observed;  ///< the observation word, from bit 0 on
   int observed_bits = 0;                ///< of the whole word
   double constant = 0;                  ///< octaves: what log2 p(y | x) of a whole row has more
@@ -57,8 +59,8 @@ struct Datapath {
   ///
   /// shape   row: as the model's columns; schedule: recorded.schedule(t)
   std::vector<std::int64_t> observe(const Row<double>& row, const std::vector<double>& schedule) const;
-  /// The mean of state d that a circuit gave.
-  double mean(std::size_t d, std::int64_t word) const;
+  /// The means of the model's states by the words that a circuit gave; of an angle with a direction, the direction's.
+  std::vector<double> means(const std::vector<std::int64_t>& words) const;
 };
 
 /// What the ports of a pipeline are connected to, clk_i first.
