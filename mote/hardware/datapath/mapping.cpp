@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 namespace mote::hardware {
 namespace {
@@ -319,8 +321,11 @@ Signal Mapping::function(Id id, const Format& y) {
       const Format wide{true, std::max(1, y.integer), std::max(2, y.fraction)};
       return converted(unary("tan ", operand(v.args[0]), wide, tangent), y);
     }
-    default:  // an arctangent: inputs were given
+    case Op::kAtan:
+    case Op::kAtan2:
       return angle(v, y);
+    default:  // inputs were given
+      throw std::logic_error("no circuit for the operation " + std::string(name_of(v.op)));
   }
 }
 
