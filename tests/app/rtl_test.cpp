@@ -262,6 +262,7 @@ TEST(Rtl, WritesItsGoldenModelInC) {
     passes("local-level -n 3000 --arch " + kind);
   passes("ungm --arch auxiliary --proposal observation --overlap -n 200 --burn-in 7");
   passes("local-level --arch imh-chain --lanes 4 --overlap -n 40 --draws 80 --burn-in 3");
+  passes("local-level --arch imh-chain --lanes 1 --overlap -n 24");
   passes("local-level --arch imh-parallel --overlap -n 24");
   for (const std::string scheme : {"residual-systematic", "roulette"}) {
     passes("local-level --arch sisr -n 100 --resampler " + scheme);

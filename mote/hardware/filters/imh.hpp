@@ -42,7 +42,7 @@ struct ImhLanes {
   /// Cycles of the choice whose slot each memory of states reads, where several lanes take turns.
   std::uint64_t turn_latency() const { return count > 1 && parents != Parents::kShared ? 1 : 0; }
   /// Cycles from the log weights of a row to what is decided on it.
-  std::uint64_t chain_latency() const { return folded ? count + 2 : 1; }
+  std::uint64_t chain_latency() const { return folded && count > 1 ? count + 2 : 1; }
 };
 
 /// Cycles of a step of r rows, one every T, K_p + K_w of them to fill the pipelines:  (r - 1) T + K_p + K_w + 1.

@@ -65,13 +65,12 @@ struct Architecture {
   std::vector<Register> registers;                        ///< beside start, steps and busy
   unsigned most_lanes = 1;                                ///< as many as --lanes says, a power of two
   bool chain = false;                                     ///< a chain decides; estimates say how often it moved
-  unsigned stages = 0;                                    ///< of its pipeline, beside the model's
+  unsigned stages = 0;                                    ///< of its pipeline with one lane, beside the model's
   std::vector<Parameter> (*parameters)(const Capacity&);  ///< that other kinds do not have
   std::string (*range)(const Capacity&);                  ///< of its registers, for the data sheet
   Capacity (*capacity)(const RunRegisters& most, unsigned lanes);
   std::unique_ptr<Golden> (*golden)(const Arithmetic&, std::uint64_t seed, const Capacity&);
   bool folded = false;             ///< one chain before all lanes
-  unsigned stages_a_lane = 0;      ///< that each lane adds to the stages
   bool pairs = false;              ///< weighs pairs of state and parent, so that any proposal will do
   bool schemes = false;            ///< resamples by any scheme of Resampler
   bool loops = false;              ///< in loops that can be pipelined and merged

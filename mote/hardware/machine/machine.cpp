@@ -135,10 +135,10 @@ Machine::Machine(ModelCircuit model, const Architecture& architecture, const Run
 }
 
 unsigned Machine::stages() const {
-  const unsigned own = architecture_->stages + architecture_->stages_a_lane * capacity_.lanes;
-  const auto turn = static_cast<unsigned>(architecture_->fed(capacity_).turn_latency());
-  return own + formats().propose_latency + formats().weigh_latency +
-         (architecture_->chain ? formats().product_latency - 1 + turn : 0);
+  const ImhLanes lanes = architecture_->fed(capacity_);
+  const auto more = static_cast<unsigned>(lanes.turn_latency() + lanes.chain_latency() - 1);
+  return architecture_->stages + formats().propose_latency + formats().weigh_latency +
+         (architecture_->chain ? formats().product_latency - 1 + more : 0);
 }
 
 int Machine::particle_bits() const { return as_int(capacity_.lanes * formats().dims * formats().value_bits); }

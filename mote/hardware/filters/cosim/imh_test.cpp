@@ -1,3 +1,4 @@
+#include "Vimh_1_folded.h"
 #include "Vimh_2_folded.h"
 #include "Vimh_2_in_turn.h"
 #include "Vimh_2_overlapped.h"
@@ -6,6 +7,7 @@
 #include "Vimh_4_folded.h"
 #include "Vimh_4_folded_overlapped.h"
 #include "Vimh_4_shared.h"
+#include "Vimh_8_folded.h"
 #include "Vimh_growth.h"
 #include "Vimh_in_turn.h"
 #include "Vimh_local_level.h"
@@ -49,6 +51,10 @@ struct TwoChainsEverySecondCycle : GrowthCircuit {
   static constexpr ImhLanes kLanes{2};
   static Arithmetic model() { return growth_every(2); }
 };
+struct OnePairBeforeOneChain : LocalLevelCircuit {
+  using Top = Vimh_1_folded;
+  static constexpr ImhLanes kLanes{.count = 1, .folded = true};
+};
 struct TwoPairsBeforeOneChain : LocalLevelCircuit {
   using Top = Vimh_2_folded;
   static constexpr ImhLanes kLanes{.count = 2, .folded = true};
@@ -56,6 +62,10 @@ struct TwoPairsBeforeOneChain : LocalLevelCircuit {
 struct FourPairsBeforeOneChain : GrowthCircuit {
   using Top = Vimh_4_folded;
   static constexpr ImhLanes kLanes{.count = 4, .folded = true};
+};
+struct EightPairsBeforeOneChain : GrowthCircuit {
+  using Top = Vimh_8_folded;
+  static constexpr ImhLanes kLanes{.count = 8, .folded = true};
 };
 struct OverlappedSteps : GrowthCircuit {
   using Top = Vimh_overlapped;
@@ -79,8 +89,9 @@ class ImhCircuit : public ::testing::Test {
   Bench<typename Circuit::Top> bench_{with_tables(Circuit::model().formats), kLanes};
 };
 using Circuits = ::testing::Types<LocalLevelCircuit, GrowthCircuit, TwoPrivateChains, FourBankedChains,
-                                  FourSharedChains, EveryThirdCycle, TwoChainsEverySecondCycle, TwoPairsBeforeOneChain,
-                                  FourPairsBeforeOneChain, OverlappedSteps, TwoChainsOverlapped, FourPairsOverlapped>;
+                                  FourSharedChains, EveryThirdCycle, TwoChainsEverySecondCycle, OnePairBeforeOneChain,
+                                  TwoPairsBeforeOneChain, FourPairsBeforeOneChain, EightPairsBeforeOneChain,
+                                  OverlappedSteps, TwoChainsOverlapped, FourPairsOverlapped>;
 TYPED_TEST_SUITE(ImhCircuit, Circuits);
 
 TYPED_TEST(ImhCircuit, EqualsTheGoldenModelAtEverySize) {
@@ -116,7 +127,8 @@ double law_of(const ImhRegisters& r, const ImhLanes& lanes, const Formats& f) {
                                  static_cast<double>(f.weigh_latency + lanes.chain_latency())};
   const double turn = f.interval;
   if (!lanes.folded) return sequential_time(r.draws / lanes.count + r.burn_in, {turn, turn, 1}, latencies);
-  return paired_time(r.draws + r.burn_in, lanes.count, {1, 1, 1.0 / lanes.count}, latencies);
+  const std::uint64_t rows = (r.draws + r.burn_in + lanes.count - 1) / lanes.count;  // the last one may be filled up
+  return paired_time(rows * lanes.count, lanes.count, {1, 1, 1.0 / lanes.count}, latencies);
 }
 
 TYPED_TEST(ImhCircuit, TakesTheCyclesOfTheLatencyLaw) {
@@ -132,7 +144,7 @@ TYPED_TEST(ImhCircuit, TakesTheCyclesOfTheLatencyLaw) {
 TYPED_TEST(ImhCircuit, LosesNothingWhenStreamsPause) {
   Imh golden = this->golden();
   for (const unsigned often : {60U, 200U, 254U})
-    for (const ImhRegisters& registers : {ImhRegisters{4, 8, 2, false}, ImhRegisters{88, 88, 0, true}}) {
+    for (const ImhRegisters& registers : {ImhRegisters{8, 16, 2, false}, ImhRegisters{88, 88, 0, true}}) {
       const auto sights = TypeParam::sights(30, often);
       const Outcome outcome = this->bench_.run(registers.particles, sights, written(registers), {often, often, often});
       expect_equal(outcome, golden, registers, sights);

@@ -4,12 +4,13 @@
 //   lw <= lw' - log2 u;  the last N / Lanes states of each chain are the next set
 //
 // Folded: one chain visits rows of Lanes proposals, lane by lane. Overlapped: the first rows of a step choose their parents among
-// the states that had emerged when they began. Proposals of pairs carry their parent to be weighed.
+// the states that had emerged when they began. Several lanes always take turns at the memories of states, as all circuits that
+// mote writes do, which has a cycle of the window. Proposals of pairs carry their parent to be weighed.
 
 enum {
   PairWords = (Dims * ValueWidth + CarryWidth + 31) / 32,
   Chains = Folded ? 1 : Lanes,
-  Window = 3 + Product + (Lanes > 1) + ProposeLatency + WeighLatency + (Folded ? Lanes + 2 : 1) - 1
+  Window = 3 + Product + (Lanes > 1) + ProposeLatency + WeighLatency + (Folded && Lanes > 1 ? Lanes + 2 : 1) - 1
 };
 
 struct filter {

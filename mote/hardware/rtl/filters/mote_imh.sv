@@ -6,7 +6,8 @@
 //   keeps the last N/Lanes states of each chain; mean over all proposals by weight, or over the kept (chain_mean_i)
 //
 // Folded: the chain visits the proposals of a row lane by lane (mote_fold), so that N_b is of one chain: Q/Lanes + N_b/Lanes
-// rows, the latter rounded up; slot k of the set holds the states k Lanes .. k Lanes + Lanes - 1 that were kept.
+// rows, the latter rounded up; slot k of the set holds the states k Lanes .. k Lanes + Lanes - 1 that were kept. Of one lane that
+// is what it would be without.
 // Parents says whose states a lane's parents are: 0 its own chain's, 1 all chains', in a common turn (banked), 2 all
 // chains', each by itself (shared: a copy of the set for every lane); see mote_parents.
 // Overlapped: a step begins to propose while the one before is still decided on. Its first proposals have their parents among
@@ -26,7 +27,7 @@
 //          draws_i + Lanes burn_in_i <= 2^At (Folded: draws_i + burn_in_i); Most <= 2^At. Registers are read at start_i
 // timing   a row every Interval = T cycles; a step of r rows takes (r - 1) T + K_p + K_w + 1 cycles, exactly (IMH-HW 5.3 with
 //          T_p = T_w = T, T_D = 1; of pairs with T_D = 1/Lanes): K_p = 3 + Product + ProposeLatency (several lanes
-//          whose Parents are not 2: one more), K_w = WeighLatency + 1 (Folded: WeighLatency + Lanes + 2); the estimate
+//          whose Parents are not 2: one more), K_w = WeighLatency + 1 (Folded, Lanes > 1: WeighLatency + Lanes + 2); the estimate
 //          follows 6 + Product + Dims (ValueWidth + Extra + 1) cycles (2 log2 Lanes more with several lanes) behind the last decision, of
 //          a folded chain sooner or later, see imh.cpp. A step waits for an observation, and for the estimate of the
 //          step before the last to be taken. Overlapped: r + W - H cycles; r where n >= 2 W.
@@ -103,7 +104,8 @@ module mote_imh #(
     output logic        [At:0]                     est_accepted_o
 );
   localparam int unsigned ModelLatency = ProposeLatency + WeighLatency;
-  localparam int unsigned ChainLatency = Folded == 1 ? Lanes + 2 : 1;  // from the log weights of a row to what is decided
+  localparam bit Pairs = Folded == 1 && Lanes > 1;
+  localparam int unsigned ChainLatency = Pairs ? Lanes + 2 : 1;  // from the log weights of a row to what is decided
   localparam int unsigned SlotLatency = 1 + Product + (Lanes > 1 && Parents != 2 ? 1 : 0);  // until a parent's slot is read
   localparam int unsigned ParentLatency = SlotLatency + 2;  // of mote_parents
   localparam int unsigned Window = ParentLatency + ModelLatency + ChainLatency - 1;  // a state emerges a cycle after it is decided on
@@ -114,7 +116,7 @@ module mote_imh #(
   localparam int unsigned Streams = 2 + DrawWords;  // of a lane: parents, acceptance, draws
   count_t n_q, last_row_q, drop_q, per_lane_n, rows;
   assign per_lane_n = n_i >> LaneBits;
-  assign rows = (draws_i >> LaneBits) + (Folded == 1 ? (burn_in_i + (At + 1)'(Lanes - 1)) >> LaneBits : burn_in_i);
+  assign rows = (draws_i >> LaneBits) + (Pairs ? (burn_in_i + (At + 1)'(Lanes - 1)) >> LaneBits : burn_in_i);
   logic equal_q;
   logic starts_run;
   always_ff @(posedge clk_i) begin
@@ -241,7 +243,7 @@ module mote_imh #(
           .clk_i, .rst_ni, .advance_i(parent_valid), .word_o(propose_words_o[(l*DrawWords+w)*32+:32]));
     end
   end
-  if (Folded == 1) begin : gen_folded
+  if (Pairs) begin : gen_folded
     logic [Lanes*StateWidth-1:0] folded;
     mote_fold #(
         .Lanes(Lanes), .LogWidth(LogWidth), .StateWidth(StateWidth), .Seed(Seed), .Stream(Stream + 1),
@@ -281,7 +283,7 @@ module mote_imh #(
     moves = '0;
     for (int l = 0; l < Lanes; l++) moves = moves + (At + 1)'(accepts_q[l]);
   end
-  assign accepted_d = !started_q ? accepted_q + moves : Folded == 1 ? moves : '0;
+  assign accepted_d = !started_q ? accepted_q + moves : Pairs ? moves : '0;
   logic [SlotWidth-1:0] slot_q;
   logic kept_q, kept_first_q, last_q;
   assign starts = decided_q == '0;
