@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "mote/app/explore/parallel.hpp"
 #include "mote/app/reproduce/laboratory.hpp"
 #include "mote/app/reproduce/script.hpp"
+#include "mote/base/parallel.hpp"
 #include "mote/base/refusal.hpp"
 #include "tests/app/program.hpp"
 
@@ -60,7 +60,7 @@ circuit = true
 options = ["--arch", "sisr", "-n", "50")"));
   const auto errands = laboratory.errands();
   ASSERT_EQ(errands.size(), 2U);
-  explore::in_parallel(2, 2, [&](std::size_t k) { errands[1 - k](); });
+  in_parallel(2, 2, [&](std::size_t k) { errands[1 - k](); });
   const auto results = laboratory.regenerate([] {}).results;
   ASSERT_EQ(results.size(), 5U);
   EXPECT_EQ(results[0].ours, results[1].ours);

@@ -8,13 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "mote/app/commands/command.hpp"
-#include "mote/app/explore/parallel.hpp"
 #include "mote/app/files/output.hpp"
 #include "mote/app/files/text.hpp"
 #include "mote/app/reproduce/faults.hpp"
 #include "mote/app/reproduce/figures.hpp"
 #include "mote/app/reproduce/publication.hpp"
 #include "mote/app/terminal/progress.hpp"
+#include "mote/base/parallel.hpp"
 #include "mote/software/threads.hpp"
 
 namespace mote {
@@ -104,7 +104,7 @@ std::vector<Regenerated> regenerate_all(std::vector<Laboratory>& laboratories) {
     const std::lock_guard lock(mutex);
     progress.update(++done, work);
   };
-  explore::in_parallel(errands.size(), cores(), [&](std::size_t k) {
+  in_parallel(errands.size(), cores(), [&](std::size_t k) {
     refuse_when_stopped();
     errands[k]();
     ran();

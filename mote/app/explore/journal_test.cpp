@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "mote/app/explore/parallel.hpp"
 #include "mote/base/numbers.hpp"
+#include "mote/base/parallel.hpp"
 #include "mote/base/refusal.hpp"
 #include "mote/base/scratch_folder.hpp"
 

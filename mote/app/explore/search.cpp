@@ -6,8 +6,8 @@
 #include <mutex>
 #include <tuple>
 
-#include "mote/app/explore/parallel.hpp"
 #include "mote/base/numbers.hpp"
+#include "mote/base/parallel.hpp"
 #include "mote/base/refusal.hpp"
 
 namespace mote::explore {

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "mote/app/explore/parallel.hpp"
 #include "mote/base/draws.hpp"
 #include "mote/base/numbers.hpp"
 #include "mote/base/refusal.hpp"
@@ -233,18 +232,6 @@ TEST(Search, StopsAtASignal) {
                    target, jury(), journal, order_of({}, 2), [](const char*, std::size_t, std::size_t) {}, stop),
                Refusal);
   EXPECT_EQ(target.ran, 0);
-}
-
-TEST(InParallel, DoesEveryPieceOnceAndHandsErrorsOn) {
-  std::vector<std::atomic<int>> done(1000);
-  in_parallel(done.size(), 3, [&](std::size_t k) { ++done[k]; });
-  EXPECT_TRUE(std::all_of(done.begin(), done.end(), [](const auto& d) { return d == 1; }));
-  EXPECT_THROW(in_parallel(1000, 3,
-                           [](std::size_t k) {
-                             if (k == 500) throw std::runtime_error("no");
-                           }),
-               std::runtime_error);
-  in_parallel(0, 3, [](std::size_t) { FAIL(); });
 }
 
 }  // namespace

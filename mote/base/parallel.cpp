@@ -1,4 +1,4 @@
-#include "mote/app/explore/parallel.hpp"
+#include "mote/base/parallel.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace mote::explore {
+namespace mote {
 
 void in_parallel(std::size_t count, std::size_t threads, const std::function<void(std::size_t)>& work) {
   std::atomic<std::size_t> next{0};
@@ -32,4 +32,4 @@ void in_parallel(std::size_t count, std::size_t threads, const std::function<voi
   if (failed) std::rethrow_exception(failed);
 }
 
-}  // namespace mote::explore
+}  // namespace mote
