@@ -197,9 +197,9 @@ const std::string kYosys =
     "\nEND\n";
 
 // claim    circuits are judged with what they take of a device by their parts; the pick's command writes one
-// referee  a stand-in for Yosys, whose areas are known: of a circuit's six memory blocks four are its pipelines' and
-// one
-//          is a table; the last holds two sets of up to 512 particles at N = 1024, or four of these at N = 2048
+// referee  a stand-in for Yosys, whose areas are known: of a circuit's six memory blocks four are its
+//          pipelines' and one is a table; the last holds two sets of up to 512 particles at N = 1024, or four of these
+//          at N = 2048
 TEST_F(Explore, FindsCircuits) {
   scratch_.shell("mkdir bin");
   scratch_.write("bin/yosys", kYosys);

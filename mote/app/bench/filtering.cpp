@@ -60,10 +60,9 @@ Task growth(const TaskEntry& entry, Precision precision, const contenders::Descr
 
 // claim    the means are those of the reference engine in double, which draws the same numbers
 // referee  the reference engine
-// design   1000 particles, seed 1, 10 steps. Vectors round otherwise, by parts in 1e-16, and their normal numbers are
-// good
-//          to 1e-8; a child gets another parent when a cumulative weight comes that near to a target, not in these
-//          steps
+// design   1000 particles, seed 1, 10 steps. Vectors round otherwise, by parts in 1e-16, and their normal numbers
+//          are good to 1e-8; a child gets another parent when a cumulative weight comes that near to a target,
+//          not in these steps
 // risk     none: the verdict is fixed; another seed differs by 0.01
 Verdict like_the_reference(const Entrant& entrant, const Entrant& reference, std::size_t components) {
   constexpr std::size_t kCompared = 10;
@@ -91,13 +90,11 @@ double mean_rmse(const Entrant& entrant, const std::vector<double>& expected, st
   return sum / kManyRuns;
 }
 
-// claim    in float, a filter errs as much as the reference engine in double. (Float's cumulative weights put a child
-// in
-//          a thousand to a neighbour, after which two runs are as good as independent.)
+// claim    in float, a filter errs as much as the reference engine in double. (Float's cumulative weights put a
+//          child in a thousand to a neighbour, after which two runs are as good as independent.)
 // referee  a run of the reference engine with 200 000 particles
-// design   100 runs of 1000 particles, 20 steps: the RMSE of a run of `bearings` varies by 56 %, the ratio of two means
-// of
-//          100 by 8 %
+// design   100 runs of 1000 particles, 20 steps: the RMSE of a run of `bearings` varies by 56 %, the ratio of two
+//          means of 100 by 8 %
 // risk     the band is 5 standard errors wide on either side
 Verdict errs_like(const Entrant& entrant, double usual, const std::vector<double>& expected, std::size_t components) {
   return {fmt::format("RMSE to a large run, over that of the reference engine; {} runs of {} particles", kManyRuns,

@@ -14,10 +14,9 @@ namespace {
 
 // claim    the SIMD engine is the reference engine, step by step from the same draws
 // referee  the reference engine
-// design   12 steps of each model; N = 1501 in double, neither whole blocks nor whole vectors, and 101 in float. One
-// child
-//          that rounding gives to the next particle moves all sums a little, so all children after it, and from then on
-//          the engines agree in law only: the chance of that grows like N^2, so N is small
+// design   12 steps of each model; N = 1501 in double, neither whole blocks nor whole vectors, and 101 in float.
+//          One child that rounding gives to the next particle moves all sums a little, so all children after it, and
+//          from then on the engines agree in law only: the chance of that grows like N^2, so N is small
 // risk     none: fixed seeds. The twin (another seed) must be caught
 constexpr double kSame = 0.02;
 
